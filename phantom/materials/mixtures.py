@@ -18,7 +18,8 @@ TABLE: Final[dict[str, Row]] = {
         "C": 0.000124, "N": 0.755268, "O": 0.231781, "Ar": 0.012827},
         "NISTIR 5632 table 2; 20 degrees Celsius, 101.325 kPa"),
     "pmma": ("Poly(methyl methacrylate)", 1.19, {
-        "H": 0.080546, "C": 0.599848, "O": 0.319606}, "C5H8O2; NISTIR 5632 table 2 for the density"),
+        "H": 0.080546, "C": 0.599848, "O": 0.319606},
+        "C5H8O2; density of NISTIR 5632 table 2"),
     "aluminium": ("Aluminium", 2.70, {"Al": 1.0}, "pure element; NISTIR 5632 table 1 (2.699)"),
     "titanium": ("Titanium", 4.54, {"Ti": 1.0}, "pure element; NISTIR 5632 table 1"),
     "steel": ("Stainless steel AISI 316L", 8.00, {
