@@ -1,0 +1,99 @@
+"""Exact X-ray images of phantoms made of generalized cylinders, quadrics and densities.
+
+Public names are loaded when they are first used, so that ``import phantom`` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from phantom import library
+    from phantom.errors import (
+        CancelledError,
+        InvalidDocumentError,
+        InvalidInputError,
+        PhantomError,
+        Problem,
+        UnknownPhantomError,
+    )
+    from phantom.imaging import (
+        Beam,
+        Detector,
+        Presentation,
+        Radiograph,
+        View,
+        preset_view,
+        radiograph,
+    )
+    from phantom.scene import Phantom, load
+    from phantom.tracing import Intervals, intervals, path_lengths
+
+    __version__: str
+
+__all__ = [
+    "Beam",
+    "CancelledError",
+    "Detector",
+    "Intervals",
+    "InvalidDocumentError",
+    "InvalidInputError",
+    "Phantom",
+    "PhantomError",
+    "Presentation",
+    "Problem",
+    "Radiograph",
+    "UnknownPhantomError",
+    "View",
+    "__version__",
+    "intervals",
+    "library",
+    "load",
+    "path_lengths",
+    "preset_view",
+    "radiograph",
+]
+
+_HOMES = {
+    "phantom.errors": (
+        "CancelledError",
+        "InvalidDocumentError",
+        "InvalidInputError",
+        "PhantomError",
+        "Problem",
+        "UnknownPhantomError",
+    ),
+    "phantom.imaging": (
+        "Beam",
+        "Detector",
+        "Presentation",
+        "Radiograph",
+        "View",
+        "preset_view",
+        "radiograph",
+    ),
+    "phantom.scene": ("Phantom", "load"),
+    "phantom.tracing": ("Intervals", "intervals", "path_lengths"),
+}
+_HOME = {name: home for home, found in _HOMES.items() for name in found}
+
+
+def __getattr__(name: str) -> object:
+    """Load a public name when it is first asked for (PEP 562)."""
+    if name == "library":
+        return import_module("phantom.library")
+    if name == "__version__":
+        from importlib.metadata import version
+
+        value: object = version("phantom-xray")
+    elif name in _HOME:
+        value = getattr(import_module(_HOME[name]), name)
+    else:
+        raise AttributeError(f"module 'phantom' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,1 @@
+"""The phantom library: one module a phantom, its parameters, its document and its sources."""
