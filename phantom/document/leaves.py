@@ -1,0 +1,240 @@
+"""The leaves of a solid: shapes that map their inside to one material."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, ValidationInfo, field_validator
+
+from phantom.document.base import (
+    Fraction,
+    Length,
+    Model,
+    Name,
+    Number,
+    Point,
+    Vector,
+    direction,
+    refuse,
+    told,
+)
+from phantom.document.contours import Contour
+from phantom.document.curves import Axis
+from phantom.document.rules import end_apart, parallel
+from phantom.document.sweeps import Frame, LinearSweep, Sweep
+
+
+class Cut(Model):
+    """A plane that keeps the side its normal points away from."""
+
+    point: Annotated[Point, told("Point", "mm", "A point of the plane.")]
+    normal: Annotated[Vector, told("Normal", "none", "Normal, pointing to the side cut away.")]
+
+    _direction = field_validator("normal")(direction)
+
+
+class Appearance(Model):
+    """How a leaf looks in visible light (Phong); ambient + diffuse + specular <= 1."""
+
+    color: Annotated[
+        tuple[Fraction, Fraction, Fraction], told("Colour", "1", "Red, green and blue from 0 to 1.")
+    ] = (0.8, 0.8, 0.8)
+    ambient: Annotated[Fraction, told("Ambient", "1", "The paper's K_a.")] = 0.2
+    diffuse: Annotated[Fraction, told("Diffuse", "1", "The paper's K_d.")] = 0.6
+    specular: Annotated[
+        Fraction, told("Specular", "1", "The paper's K_s."), Field(validate_default=True)
+    ] = 0.2
+    exponent: Annotated[
+        Number, told("Exponent", "none", "The paper's n, how tight the highlight is.", ge=1, le=1e4)
+    ] = 20.0
+
+    @field_validator("specular")
+    @classmethod
+    def _gives_back_no_more_light_than_it_gets(cls, specular: float, info: ValidationInfo) -> float:
+        if "ambient" in info.data and "diffuse" in info.data:
+            total = info.data["ambient"] + info.data["diffuse"] + specular
+            if total > 1 + 1e-9:
+                message = f"found ambient + diffuse + specular = {total:.6g}; expected at most 1"
+                refuse("out_of_range", ((), message), whole=True)
+        return specular
+
+
+class LeafModel(Model):
+    """What every leaf may have."""
+
+    name: Annotated[
+        Name | None, told("Name", "none", "Last part of the leaf's label in the ground truth.")
+    ] = None
+    material: Annotated[
+        Name | None,
+        told("Material", "none", "Name in materials; left out only where it can never surface."),
+    ] = None
+    appearance: Annotated[
+        Appearance | None, told("Appearance", "none", "Look in visible light.")
+    ] = None
+    cuts: Annotated[
+        tuple[Cut, ...], told("Cuts", "none", "Planes that truncate the leaf and move with it.")
+    ] = ()
+
+
+class Sphere(LeafModel):
+    """All points within a radius of a centre."""
+
+    type: Literal["sphere"] = "sphere"
+    center: Annotated[Point, told("Centre", "mm", "Centre.")]
+    radius: Annotated[Length, told("Radius", "mm", "Radius.")]
+
+
+class Ellipsoid(LeafModel):
+    """An ellipsoid along the world's axes."""
+
+    type: Literal["ellipsoid"] = "ellipsoid"
+    center: Annotated[Point, told("Centre", "mm", "Centre.")]
+    semi_axes: Annotated[
+        tuple[Length, Length, Length], told("Semi-axes", "mm", "Half widths along x, y and z.")
+    ]
+
+
+class Cylinder(LeafModel):
+    """A straight cylinder with flat ends, circular or elliptic."""
+
+    type: Literal["cylinder"] = "cylinder"
+    start: Annotated[Point, told("Start", "mm", "Centre of one end.")]
+    end: Annotated[Point, told("End", "mm", "Centre of the other end.")]
+    radius: Annotated[
+        Length | None, told("Radius", "mm", "Radius; left out when semi_axes are given.")
+    ] = None
+    semi_axes: Annotated[
+        tuple[Length, Length] | None,
+        told("Semi-axes", "mm", "Half width a along up and b along (end - start) x up."),
+        Field(validate_default=True),
+    ] = None
+    up: Annotated[
+        Vector | None,
+        told("Up", "none", "Direction of a, made orthogonal to the axis; goes with semi_axes."),
+        Field(validate_default=True),
+    ] = None
+
+    _ends = field_validator("end")(end_apart)
+
+    @field_validator("semi_axes")
+    @classmethod
+    def _has_one_section(
+        cls, semi_axes: tuple[float, float] | None, info: ValidationInfo
+    ) -> tuple[float, float] | None:
+        if "radius" in info.data:
+            if info.data["radius"] is None and semi_axes is None:
+                message = "found neither; expected radius, or semi_axes with up"
+                refuse("missing", (("radius",), message), whole=True)
+            if info.data["radius"] is not None and semi_axes is not None:
+                refuse("conflict", ((), "found radius too; expected radius or semi_axes, not both"))
+        return semi_axes
+
+    @field_validator("up")
+    @classmethod
+    def _goes_with_semi_axes(cls, up: Vector | None, info: ValidationInfo) -> Vector | None:
+        if "semi_axes" in info.data:
+            elliptic = info.data["semi_axes"] is not None
+            if elliptic and up is None:
+                refuse("missing", ((), "missing; expected up beside semi_axes"))
+            if up is not None and not elliptic:
+                refuse("conflict", ((), "found up without semi_axes; expected both or neither"))
+        if up is not None:
+            direction(up)
+            if "start" in info.data and "end" in info.data:
+                start, end = info.data["start"], info.data["end"]
+                axis = [e - s for s, e in zip(start, end, strict=True)]
+                if parallel(up, axis):
+                    message = "found a direction parallel to the axis; expected one across it"
+                    refuse("degenerate", ((), message))
+        return up
+
+
+ConeRadius = Annotated[Number, Field(ge=0, le=1e7)]
+
+
+class Cone(LeafModel):
+    """A cone or a truncated cone with flat ends."""
+
+    type: Literal["cone"] = "cone"
+    start: Annotated[Point, told("Start", "mm", "Centre of one end.")]
+    end: Annotated[Point, told("End", "mm", "Centre of the other end.")]
+    start_radius: Annotated[ConeRadius, told("Start radius", "mm", "Radius at start; 0 is a tip.")]
+    end_radius: Annotated[ConeRadius, told("End radius", "mm", "Radius at end; 0 is a tip.")]
+
+    _ends = field_validator("end")(end_apart)
+
+    @field_validator("end_radius")
+    @classmethod
+    def _has_one_end(cls, end_radius: float, info: ValidationInfo) -> float:
+        if max(info.data.get("start_radius", 1.0), end_radius) < 1e-6:
+            refuse("out_of_range", ((), "found 0 at both ends; expected one radius above 0"))
+        return end_radius
+
+
+class DoubleCone(LeafModel):
+    """Both sides of a cone without ends, bounded by its cuts."""
+
+    type: Literal["double_cone"] = "double_cone"
+    apex: Annotated[Point, told("Apex", "mm", "Where the two cones meet.")]
+    axis: Annotated[Vector, told("Axis", "none", "Direction of the cones' axis.")]
+    slope: Annotated[
+        Number, told("Slope", "1", "Radius over distance along the axis.", ge=1e-6, le=1e6)
+    ]
+    cuts: Annotated[
+        tuple[Cut, ...],
+        told("Cuts", "none", "Planes that bound the cones; needed, for they are endless."),
+        Field(validate_default=True),
+    ] = ()
+
+    _direction = field_validator("axis")(direction)
+
+    @field_validator("cuts")
+    @classmethod
+    def _is_bounded(cls, cuts: tuple[Cut, ...]) -> tuple[Cut, ...]:
+        if not cuts:
+            refuse("unbounded", ((), "found no cuts; expected cuts that bound the double cone"))
+        return cuts
+
+
+class Box(LeafModel):
+    """A box along the world's axes."""
+
+    type: Literal["box"] = "box"
+    center: Annotated[Point, told("Centre", "mm", "Centre.")]
+    size: Annotated[
+        tuple[Length, Length, Length], told("Size", "mm", "Full widths along x, y and z.")
+    ]
+
+
+Coefficients = tuple[Number, Number, Number, Number, Number, Number, Number, Number, Number, Number]
+
+
+class Quadric(LeafModel):
+    """Ax²+By²+Cz²+Dxy+Eyz+Fzx+Gx+Hy+Iz+J <= 0, bounded by itself or by its cuts."""
+
+    type: Literal["quadric"] = "quadric"
+    coefficients: Annotated[
+        Coefficients, told("Coefficients", "mm^-2, mm^-1 and 1", "A to J, ten numbers.")
+    ]
+
+    @field_validator("coefficients")
+    @classmethod
+    def _has_a_surface(cls, coefficients: Coefficients) -> Coefficients:
+        if not any(coefficients[:9]):
+            refuse("degenerate", ((), "found 0 for all of A to I; expected a surface"))
+        return coefficients
+
+
+class GeneralizedCylinder(LeafModel):
+    """A contour swept along a curved axis."""
+
+    type: Literal["generalized_cylinder"] = "generalized_cylinder"
+    axis: Annotated[Axis, told("Axis", "mm", "The curve a(u), u from 0 to 1.")]
+    contour: Annotated[Contour, told("Contour", "mm", "The closed curve cs(v) that is swept.")]
+    sweep: Annotated[
+        Sweep, told("Sweep", "1", "How the contour changes with u; left out, it does not.")
+    ] = LinearSweep()
+    frame: Annotated[
+        Frame, told("Frame", "none", "How the contour's axes n and b ride along the axis.")
+    ] = "rotation_minimizing"
