@@ -127,7 +127,7 @@ def document(name: str, parameters: Mapping[str, object] | None = None) -> Docum
     return chosen.build(checked)
 
 
-def build(name: str, **parameters: object) -> Phantom:
+def build(name: str, /, **parameters: object) -> Phantom:
     """Return a library phantom, ready to be X-rayed.
 
     Examples

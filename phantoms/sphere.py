@@ -5,29 +5,33 @@ A ray at distance d from the centre crosses 2·√(R² − d²) of it, the chord
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict, Field
+from typing import Annotated
 
-from phantom.document import Document, FixedMaterial, ReferenceMaterial, Sphere
+from phantom.document import Document, FixedMaterial, Model, ReferenceMaterial, Sphere, told
 from phantom.library import Entry
 from phantoms.fields import ReferenceName
 
 
-class Parameters(BaseModel):
+class Parameters(Model):
     """What a sphere may be."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-    radius_mm: float = Field(25.0, ge=0.1, le=200.0, title="Radius", description="in mm")
-    material: ReferenceName = Field(
-        "cortical_bone_icru44", title="Material", description="a reference material"
-    )
-    attenuation_per_mm: float | None = Field(
-        None,
-        ge=0.0,
-        le=10.0,
-        title="Fixed attenuation",
-        description="in 1/mm, the same at every energy; takes the place of the material",
-    )
+    radius_mm: Annotated[
+        float, told("Radius", "mm", "Of the ball.", ge=0.1, le=200.0, strict=True)
+    ] = 25.0
+    material: Annotated[
+        ReferenceName, told("Material", "none", "A reference material that fills the ball.")
+    ] = "cortical_bone_icru44"
+    attenuation_per_mm: Annotated[
+        float | None,
+        told(
+            "Attenuation",
+            "1/mm",
+            "Holds at every energy, in place of the material's.",
+            ge=0.0,
+            le=10.0,
+            strict=True,
+        ),
+    ] = None
 
 
 def build(parameters: Parameters) -> Document:

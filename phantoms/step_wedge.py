@@ -6,31 +6,31 @@ is k + 1 step heights thick along y.
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict, Field
+from typing import Annotated
 
-from phantom.document import Box, Document, ReferenceMaterial, Solid, Union
+from phantom.document import Box, Document, Model, ReferenceMaterial, Solid, Union, told
 from phantom.library import Entry
 from phantoms.fields import ReferenceName
 
 
-class Parameters(BaseModel):
+class Parameters(Model):
     """What a step wedge may be."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-    steps: int = Field(10, ge=1, le=50, title="Steps", description="how many there are")
-    step_height_mm: float = Field(
-        2.0, ge=0.01, le=50.0, title="Step height", description="in mm, along the beam (y)"
-    )
-    step_length_mm: float = Field(
-        10.0, ge=0.1, le=100.0, title="Step length", description="in mm, from step to step (x)"
-    )
-    width_mm: float = Field(
-        30.0, ge=0.1, le=400.0, title="Width", description="in mm, along the steps' edges (z)"
-    )
-    material: ReferenceName = Field(
-        "aluminium", title="Material", description="a reference material"
-    )
+    steps: Annotated[
+        int, told("Steps", "none", "How many there are.", ge=1, le=50, strict=True)
+    ] = 10
+    step_height_mm: Annotated[
+        float, told("Step height", "mm", "Along the beam (y).", ge=0.01, le=50.0, strict=True)
+    ] = 2.0
+    step_length_mm: Annotated[
+        float, told("Step length", "mm", "From step to step (x).", ge=0.1, le=100.0, strict=True)
+    ] = 10.0
+    width_mm: Annotated[
+        float, told("Width", "mm", "Along the steps' edges (z).", ge=0.1, le=400.0, strict=True)
+    ] = 30.0
+    material: Annotated[
+        ReferenceName, told("Material", "none", "A reference material that the steps are made of.")
+    ] = "aluminium"
 
 
 def _step(parameters: Parameters, index: int) -> Box:
