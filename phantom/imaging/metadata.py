@@ -1,0 +1,69 @@
+"""What a file says of the radiograph it holds, as plain JSON values."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import TYPE_CHECKING, Any, Final
+
+from phantom.document import Document
+
+if TYPE_CHECKING:
+    from phantom.imaging.result import Radiograph
+
+UNITS: Final = {
+    "length": "mm",
+    "angle": "degree",
+    "energy": "keV",
+    "attenuation": "1/mm",
+    "path_lengths": "mm",
+    "line_integral": "1",
+    "transmission": "1",
+    "signal": "1",
+}
+"""Unit of every number in the metadata and of every quantity; ``1`` is a pure number."""
+
+AXES: Final = "LPS: +x patient left, +y back, +z head; pixel centres at whole numbers"
+
+
+def document_sha256(document: Document) -> str:
+    """Return the SHA-256 of a document written as JSON with every default filled in.
+
+    The order of materials counts, since it is the order of the path lengths.
+    """
+    tree = document.model_dump(mode="json")
+    text = json.dumps(tree, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    return hashlib.sha256(text.encode("ascii")).hexdigest()
+
+
+def metadata(radiograph: Radiograph) -> dict[str, Any]:
+    """Return the metadata of a radiograph; every value survives ``json.dumps``."""
+    import phantom
+
+    document = radiograph.phantom.document
+    view = radiograph.view
+    magnified = radiograph.pitch_at_isocentre_mm
+    return {
+        "software": {"name": "phantom-xray", "version": phantom.__version__},
+        "phantom": {
+            "name": document.name,
+            "title": document.title,
+            "document_sha256": document_sha256(document),
+            "material_names": list(radiograph.phantom.material_names),
+        },
+        "units": UNITS,
+        "axes": AXES,
+        "view": view.model_dump(mode="json"),
+        "beam": radiograph.beam.model_dump(mode="json"),
+        "projection_matrix": radiograph.projection_matrix.tolist(),
+        "intrinsics": radiograph.intrinsics.tolist(),
+        "rotation": radiograph.rotation.tolist(),
+        "translation_mm": radiograph.translation.tolist(),
+        "isocentre_mm": [float(x) for x in radiograph.phantom.isocentre],
+        "magnification": radiograph.magnification,
+        "pitch_mm": list(view.detector.pitch_xy_mm),
+        "pitch_at_isocentre_mm": None if magnified is None else list(magnified),
+        "truncated": list(radiograph.truncated),
+        "stages": list(radiograph.stages),
+        "warnings": list(radiograph.warnings),
+    }

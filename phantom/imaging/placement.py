@@ -1,0 +1,155 @@
+"""A clinical word and its distances, placed around a phantom.
+
+The central ray runs from the source through the isocentre to the middle of the detector, and meets
+it at a right angle. The default detector is a preview that covers what is X-rayed.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from phantom.document import Model, validate_model
+from phantom.errors import InvalidInputError, Problem, prefixed
+from phantom.imaging.camera import box_corners
+from phantom.imaging.poses import DEFAULT_ANGLE_DEG, DEFAULT_LATERALITY, Laterality, Pose, pose
+from phantom.imaging.presets import PREVIEW_PIXELS, DetectorGrid, Preset
+from phantom.imaging.view import MIN_PITCH_MM, FloatArray, View
+
+if TYPE_CHECKING:
+    from phantom.scene import Phantom
+
+COVER_MARGIN: Final = 1.05
+"""The default detector is this much larger than the shadow of the phantom's bounding box."""
+
+OBJECT_DETECTOR_MM: Final = 100.0
+CLEARANCE_MM: Final = 10.0
+"""A default detector stands at least this far behind the phantom's bounding box."""
+
+_SIDES: Final[dict[str, Laterality]] = {"left": "left", "l": "left", "right": "right", "r": "right"}
+"""How a document may write its side; anything else (``bilateral``, nothing) gives the default."""
+
+
+def place(phantom: Phantom, preset: Preset, grid: DetectorGrid | None = None) -> View:
+    """Return the view of a preset around a phantom.
+
+    Without distances the isocentre is 100 mm before the detector, or as far as it takes for the
+    detector to stand 10 mm clear of the phantom.
+
+    Raises
+    ------
+    InvalidInputError
+        With paths under ``/view`` and ``/detector``.
+    """
+    grid = grid if grid is not None else DetectorGrid()
+    aim = np.asarray(
+        preset.isocentre if preset.isocentre is not None else phantom.isocentre, dtype=np.float64
+    )
+    at = _pose(phantom, preset)
+    corners = box_corners(phantom.bounds) - aim
+    behind = _object_detector_mm(preset, float(np.max(corners @ at.beam)))
+    source = aim - (preset.source_detector_mm - behind) * at.beam
+    pitch = grid.pitch_mm
+    if pitch is None:
+        pitch = _covering_pitch_mm(corners, at, preset.source_detector_mm, behind, grid)
+    tree = {
+        "source": source,
+        "detector": {
+            "center": aim + behind * at.beam,
+            "right": at.right,
+            "down": at.down,
+            "columns": grid.columns,
+            "rows": grid.rows,
+            "pitch_mm": pitch,
+        },
+    }
+    return View.model_validate(tree)
+
+
+def _pose(phantom: Phantom, preset: Preset) -> Pose:
+    anatomy = phantom.document.anatomy
+    own = anatomy.laterality if anatomy is not None else None
+    return pose(
+        preset.preset,
+        laterality=preset.laterality or _SIDES.get((own or "").lower(), DEFAULT_LATERALITY),
+        angle_deg=DEFAULT_ANGLE_DEG if preset.angle_deg is None else preset.angle_deg,
+        primary_angle_deg=preset.primary_angle_deg or 0.0,
+        secondary_angle_deg=preset.secondary_angle_deg or 0.0,
+    )
+
+
+def _object_detector_mm(preset: Preset, depth_mm: float) -> float:
+    """Return the distance from isocentre to detector; ``depth_mm`` of phantom lies behind it."""
+    if preset.object_detector_mm is not None:
+        return preset.object_detector_mm
+    if preset.source_object_mm is not None:
+        return preset.source_detector_mm - preset.source_object_mm
+    behind = max(OBJECT_DETECTOR_MM, depth_mm + CLEARANCE_MM)
+    if behind >= preset.source_detector_mm:
+        message = (
+            f"found {preset.source_detector_mm:g} mm, but the phantom needs {behind:g} mm between "
+            "isocentre and detector; expected a longer distance"
+        )
+        raise InvalidInputError([Problem("/view/source_detector_mm", "too_near", message)])
+    return behind
+
+
+def _covering_pitch_mm(
+    corners: FloatArray, at: Pose, source_detector_mm: float, behind: float, grid: DetectorGrid
+) -> float:
+    """Return the pitch, rounded up to three digits, at which the box's shadow fits the grid."""
+    depth = corners @ at.beam + (source_detector_mm - behind)
+    if float(depth.min()) <= 0:
+        message = "the phantom reaches behind the source, so no detector covers it; give a pitch"
+        raise InvalidInputError([Problem("/detector/pitch_mm", "missing", message)])
+    shadow = corners * (source_detector_mm / depth)[:, None]
+    needed = max(
+        2 * float(np.abs(shadow @ at.right).max()) / grid.columns,
+        2 * float(np.abs(shadow @ at.down).max()) / grid.rows,
+        MIN_PITCH_MM,
+    )
+    digit = 10.0 ** (math.floor(math.log10(needed * COVER_MARGIN)) - 2)
+    return math.ceil(needed * COVER_MARGIN / digit) * digit
+
+
+def preset_view(
+    phantom: Phantom,
+    preset: str,
+    *,
+    columns: int = PREVIEW_PIXELS,
+    rows: int = PREVIEW_PIXELS,
+    pitch_mm: float | tuple[float, float] | None = None,
+    **placing: Any,
+) -> View:
+    """Return a view by its clinical word.
+
+    Parameters
+    ----------
+    phantom
+        What the view is placed around.
+    preset
+        ``ap pa left_lateral right_lateral mediolateral lateromedial cc mlo lao rao lpo rpo c_arm``.
+    columns, rows, pitch_mm
+        The detector's grid; without a pitch it covers the phantom with 5 % to spare.
+    **placing
+        Any other field of :class:`Preset`, such as ``source_detector_mm`` or ``angle_deg``.
+    """
+    problems: list[Problem] = []
+    asked: list[Model] = []
+    trees: tuple[tuple[str, type[Model], dict[str, Any]], ...] = (
+        ("/view", Preset, {"preset": preset, **placing}),
+        ("/detector", DetectorGrid, {"columns": columns, "rows": rows, "pitch_mm": pitch_mm}),
+    )
+    for path, model, tree in trees:
+        try:
+            asked.append(validate_model(model, tree))
+        except InvalidInputError as error:
+            problems += prefixed(path, error.problems)
+    if problems:
+        raise InvalidInputError(problems)
+    word, grid = asked
+    assert isinstance(word, Preset)
+    assert isinstance(grid, DetectorGrid)
+    return place(phantom, word, grid)
