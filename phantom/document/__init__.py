@@ -12,11 +12,11 @@ from phantom.document.contours import (
 )
 from phantom.document.curves import ArcAxis, Axis, BSplineAxis, HelixAxis, LineAxis, SplineAxis
 from phantom.document.documents import Anatomy, Document, Finding
+from phantom.document.json_text import decode_json
+from phantom.document.leaf import Appearance, Cut, LeafModel
 from phantom.document.leaves import (
-    Appearance,
     Box,
     Cone,
-    Cut,
     Cylinder,
     DoubleCone,
     Ellipsoid,
@@ -24,7 +24,9 @@ from phantom.document.leaves import (
     Quadric,
     Sphere,
 )
+from phantom.document.reading import parse, read
 from phantom.document.solids import (
+    LEAVES,
     OPERATORS,
     Difference,
     Instance,
@@ -47,8 +49,10 @@ from phantom.document.substances import (
     ReferenceMaterial,
 )
 from phantom.document.sweeps import Frame, KnotProfile, LinearSweep, Profile, Scale, Sweep, UpFrame
+from phantom.document.validation import validate_model
 
 __all__ = [
+    "LEAVES",
     "OPERATORS",
     "Anatomy",
     "Appearance",
@@ -76,6 +80,7 @@ __all__ = [
     "Intersection",
     "KnotProfile",
     "Leaf",
+    "LeafModel",
     "LineAxis",
     "LinearSweep",
     "Material",
@@ -103,7 +108,11 @@ __all__ = [
     "Vector",
     "by_shape",
     "by_type",
+    "decode_json",
     "is_leaf",
     "label_of",
+    "parse",
+    "read",
     "told",
+    "validate_model",
 ]

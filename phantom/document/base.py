@@ -173,4 +173,5 @@ _SHAPES: tuple[tuple[str, Any], ...] = (
 
 def by_shape(*shapes: str, expected: str) -> Choice:
     """Pick a member by the JSON shape of the value; members stand in the order of ``shapes``."""
-    return Choice(shape_of, shapes, "wrong_shape", expected)
+    kind: LiteralString = "not_a_number" if "number" in shapes else "wrong_shape"
+    return Choice(shape_of, shapes, kind, expected)

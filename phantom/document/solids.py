@@ -21,6 +21,7 @@ from phantom.document.base import (
     refuse,
     told,
 )
+from phantom.document.leaf import LeafModel
 from phantom.document.leaves import (
     Box,
     Cone,
@@ -28,7 +29,6 @@ from phantom.document.leaves import (
     DoubleCone,
     Ellipsoid,
     GeneralizedCylinder,
-    LeafModel,
     Quadric,
     Sphere,
 )
@@ -166,6 +166,18 @@ Solid = Annotated[
         *("transformed", "instance"),
     ),
 ]
+
+LEAVES: Final[dict[str, type[LeafModel]]] = {
+    "sphere": Sphere,
+    "ellipsoid": Ellipsoid,
+    "cylinder": Cylinder,
+    "cone": Cone,
+    "double_cone": DoubleCone,
+    "box": Box,
+    "quadric": Quadric,
+    "generalized_cylinder": GeneralizedCylinder,
+}
+"""Type tag to class of the leaves."""
 
 OPERATORS: Final[dict[str, type[Operator]]] = {
     "union": Union,
