@@ -1,14 +1,14 @@
 """From a phantom and a view to a radiograph: geometry, Beer's law, presentation."""
 
 from phantom.imaging.beam import Beam, attenuations_per_mm
-from phantom.imaging.camera import Projection, projection
+from phantom.imaging.camera import Projection, box_corners, projection
 from phantom.imaging.exposure import radiograph
 from phantom.imaging.metadata import document_sha256
-from phantom.imaging.placement import place, preset_view
+from phantom.imaging.placement import covering, place, preset_view
 from phantom.imaging.poses import PRESETS, Pose, PresetName, pose
 from phantom.imaging.presentation import Presentation, present
 from phantom.imaging.presets import DetectorGrid, Preset
-from phantom.imaging.result import IMAGES, QUANTITIES, Radiograph
+from phantom.imaging.result import IMAGES, QUANTITIES, Quantity, Radiograph
 from phantom.imaging.view import Detector, View
 
 __all__ = [
@@ -23,9 +23,12 @@ __all__ = [
     "Preset",
     "PresetName",
     "Projection",
+    "Quantity",
     "Radiograph",
     "View",
     "attenuations_per_mm",
+    "box_corners",
+    "covering",
     "document_sha256",
     "place",
     "pose",

@@ -6,24 +6,27 @@ Monochromatic: one photon energy, one linear attenuation coefficient a material.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import field_validator
 
-from phantom.document.base import Model, Number, refuse, told
+from phantom.document.base import Number, refuse, told
 from phantom.document.substances import (
     CompositionMaterial,
     FixedMaterial,
     Material,
     ReferenceMaterial,
 )
+from phantom.imaging.asked import Asked
 from phantom.imaging.view import FloatArray
 from phantom.materials import attenuation_per_mm, check_energy, reference
 
 
-class Beam(Model):
+class Beam(Asked):
     """A beam of photons of one energy."""
+
+    place: ClassVar[str] = "/beam"
 
     energy_kev: Annotated[
         Number, told("Energy", "keV", "Photon energy; a fixed attenuation holds at any.")

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from phantom.document import Model, validate_model
-from phantom.errors import InvalidInputError, Problem, prefixed
-from phantom.imaging.camera import box_corners
+from phantom.errors import InvalidInputError, Problem
+from phantom.imaging.camera import box_corners, projection
 from phantom.imaging.poses import DEFAULT_ANGLE_DEG, DEFAULT_LATERALITY, Laterality, Pose, pose
 from phantom.imaging.presets import PREVIEW_PIXELS, DetectorGrid, Preset
-from phantom.imaging.view import MIN_PITCH_MM, FloatArray, View
+from phantom.imaging.view import MIN_PITCH_MM, Detector, View
 
 if TYPE_CHECKING:
     from phantom.scene import Phantom
@@ -51,21 +50,44 @@ def place(phantom: Phantom, preset: Preset, grid: DetectorGrid | None = None) ->
     corners = box_corners(phantom.bounds) - aim
     behind = _object_detector_mm(preset, float(np.max(corners @ at.beam)))
     source = aim - (preset.source_detector_mm - behind) * at.beam
-    pitch = grid.pitch_mm
-    if pitch is None:
-        pitch = _covering_pitch_mm(corners, at, preset.source_detector_mm, behind, grid)
-    tree = {
-        "source": source,
-        "detector": {
-            "center": aim + behind * at.beam,
-            "right": at.right,
-            "down": at.down,
-            "columns": grid.columns,
-            "rows": grid.rows,
-            "pitch_mm": pitch,
-        },
-    }
-    return View.model_validate(tree)
+    detector = Detector(
+        center=aim + behind * at.beam,
+        right=at.right,
+        down=at.down,
+        columns=grid.columns,
+        rows=grid.rows,
+        pitch_mm=1.0 if grid.pitch_mm is None else grid.pitch_mm,
+    )
+    view = View(source=source, detector=detector)
+    return view if grid.pitch_mm is not None else covering(phantom, view)
+
+
+def covering(phantom: Phantom, view: View) -> View:
+    """Return the view with the square pitch at which the detector covers the phantom.
+
+    The shadow of the phantom's bounding box fits with 5 % to spare about the detector's centre; the
+    pitch is rounded up to three digits.
+
+    Raises
+    ------
+    InvalidInputError
+        The box reaches behind the source (``/detector/pitch_mm``).
+    """
+    detector = view.detector
+    pixels = np.array([detector.columns, detector.rows], dtype=np.float64)
+    shadow = projection(view).project(box_corners(phantom.bounds)) - (pixels - 1) / 2
+    if not np.isfinite(shadow).all():
+        message = "the phantom reaches behind the source, so no detector covers it; give a pitch"
+        raise InvalidInputError([Problem("/detector/pitch_mm", "missing", message)])
+    widths_mm = 2 * np.abs(shadow).max(axis=0) * detector.pitch_xy_mm
+    needed = max(float((widths_mm / pixels).max()) * COVER_MARGIN, MIN_PITCH_MM)
+    digits = 2 - math.floor(math.log10(needed))
+    pitch_mm = math.ceil(round(needed * 10.0**digits, 6)) / 10.0**digits
+    return View(
+        source=view.source,
+        direction=view.direction,
+        detector=Detector(**{**detector.model_dump(), "pitch_mm": pitch_mm}),
+    )
 
 
 def _pose(phantom: Phantom, preset: Preset) -> Pose:
@@ -96,24 +118,6 @@ def _object_detector_mm(preset: Preset, depth_mm: float) -> float:
     return behind
 
 
-def _covering_pitch_mm(
-    corners: FloatArray, at: Pose, source_detector_mm: float, behind: float, grid: DetectorGrid
-) -> float:
-    """Return the pitch, rounded up to three digits, at which the box's shadow fits the grid."""
-    depth = corners @ at.beam + (source_detector_mm - behind)
-    if float(depth.min()) <= 0:
-        message = "the phantom reaches behind the source, so no detector covers it; give a pitch"
-        raise InvalidInputError([Problem("/detector/pitch_mm", "missing", message)])
-    shadow = corners * (source_detector_mm / depth)[:, None]
-    needed = max(
-        2 * float(np.abs(shadow @ at.right).max()) / grid.columns,
-        2 * float(np.abs(shadow @ at.down).max()) / grid.rows,
-        MIN_PITCH_MM,
-    )
-    digit = 10.0 ** (math.floor(math.log10(needed * COVER_MARGIN)) - 2)
-    return math.ceil(needed * COVER_MARGIN / digit) * digit
-
-
 def preset_view(
     phantom: Phantom,
     preset: str,
@@ -137,19 +141,14 @@ def preset_view(
         Any other field of :class:`Preset`, such as ``source_detector_mm`` or ``angle_deg``.
     """
     problems: list[Problem] = []
-    asked: list[Model] = []
-    trees: tuple[tuple[str, type[Model], dict[str, Any]], ...] = (
-        ("/view", Preset, {"preset": preset, **placing}),
-        ("/detector", DetectorGrid, {"columns": columns, "rows": rows, "pitch_mm": pitch_mm}),
-    )
-    for path, model, tree in trees:
-        try:
-            asked.append(validate_model(model, tree))
-        except InvalidInputError as error:
-            problems += prefixed(path, error.problems)
+    try:
+        word = Preset(preset=preset, **placing)
+    except InvalidInputError as error:
+        problems += error.problems
+    try:
+        grid = DetectorGrid(columns=columns, rows=rows, pitch_mm=pitch_mm)
+    except InvalidInputError as error:
+        problems += error.problems
     if problems:
         raise InvalidInputError(problems)
-    word, grid = asked
-    assert isinstance(word, Preset)
-    assert isinstance(grid, DetectorGrid)
     return place(phantom, word, grid)

@@ -7,18 +7,21 @@ the paper's, is the stretched transmission itself.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.document.base import Model, told
+from phantom.document.base import told
+from phantom.imaging.asked import Asked
 
 GreyArray = NDArray[np.uint8] | NDArray[np.uint16]
 
 
-class Presentation(Model):
+class Presentation(Asked):
     """How a quantity becomes grey levels."""
+
+    place: ClassVar[str] = "/presentation"
 
     mode: Annotated[
         Literal["stretch"], told("Mode", "none", "stretch: least to 0, greatest to full scale.")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Final
+from typing import Annotated, ClassVar, Final
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
-from phantom.document.base import Integer, Length, Model, Number, Point, refuse, told
+from phantom.document.base import Integer, Length, Number, Point, refuse, told
+from phantom.imaging.asked import Asked
 from phantom.imaging.poses import WITH_ANGLE, WITH_LATERALITY, Laterality, PresetName
-from phantom.imaging.view import MAX_SIDE_PIXELS, Pitch, plain
+from phantom.imaging.view import MAX_SIDE_PIXELS, Pitch, plain, within_pixels
 
 PREVIEW_PIXELS: Final = 1024
 SOURCE_DETECTOR_MM: Final = 1150.0
@@ -17,8 +18,10 @@ _Turn = Annotated[Number, Field(ge=-180, le=180)]
 _Side = Annotated[Integer, Field(ge=1, le=MAX_SIDE_PIXELS)]
 
 
-class Preset(Model):
+class Preset(Asked):
     """A view by its clinical word; what is left out gets a default."""
+
+    place: ClassVar[str] = "/view"
 
     preset: Annotated[PresetName, told("Preset", "none", "The clinical word for the pose.")]
     source_detector_mm: Annotated[
@@ -79,12 +82,20 @@ class Preset(Model):
         return value
 
 
-class DetectorGrid(Model):
+class DetectorGrid(Asked):
     """The pixels of a preset's detector; by default a preview that covers the phantom."""
+
+    place: ClassVar[str] = "/detector"
 
     columns: Annotated[_Side, told("Columns", "pixels", "Pixels in a row.")] = PREVIEW_PIXELS
     rows: Annotated[_Side, told("Rows", "pixels", "Pixels in a column.")] = PREVIEW_PIXELS
     pitch_mm: Annotated[
         Pitch | None,
+        BeforeValidator(plain),
         told("Pitch", "mm", "Distance of pixel centres; by default such that all is covered."),
     ] = None
+
+    @field_validator("rows")
+    @classmethod
+    def _is_not_too_large(cls, rows: int, info: ValidationInfo) -> int:
+        return within_pixels(rows, info)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal, get_args
 
 import numpy as np
 
@@ -21,11 +21,13 @@ from phantom.imaging.view import FloatArray, View
 if TYPE_CHECKING:
     from phantom.scene import Phantom
 
-IMAGES: Final = ("signal", "transmission", "line_integral")
-"""Quantities with one value a pixel."""
+Quantity = Literal["signal", "transmission", "line_integral", "path_lengths"]
 
-QUANTITIES: Final = (*IMAGES, "path_lengths")
+QUANTITIES: Final[tuple[Quantity, ...]] = get_args(Quantity)
 """Every quantity a radiograph has; ``path_lengths`` has one value a pixel and material."""
+
+IMAGES: Final = QUANTITIES[:3]
+"""The quantities with one value a pixel."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,13 +8,14 @@ pose is legal, tilted and off-axis too. The centre of pixel (column, row) lies a
 from __future__ import annotations
 
 import math
-from typing import Annotated, Final, Self
+from typing import Annotated, ClassVar, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
-from phantom.document.base import Integer, Model, Point, Vector, by_shape, direction, refuse, told
+from phantom.document.base import Integer, Point, Vector, by_shape, direction, refuse, told
+from phantom.imaging.asked import Asked
 
 MAX_SIDE_PIXELS: Final = 16384
 """Most columns, and most rows, of a detector."""
@@ -58,8 +59,19 @@ def unit(vector: Vector) -> FloatArray:
     return np.asarray(vector, dtype=np.float64) / math.hypot(*vector)
 
 
-class Detector(Model):
+def within_pixels(rows: int, info: ValidationInfo) -> int:
+    """Refuse ``rows`` that make, with the model's ``columns``, too many pixels."""
+    columns = info.data.get("columns", 1)
+    if columns * rows > MAX_PIXELS:
+        message = f"found {columns} × {rows} pixels; expected {MAX_PIXELS} at most"
+        refuse("too_large", ((), message))
+    return rows
+
+
+class Detector(Asked):
     """A flat detector: its pose and its grid of pixels."""
+
+    place: ClassVar[str] = "/view/detector"
 
     center: Annotated[_Point, told("Centre", "mm", "World point at the middle of the grid.")]
     right: Annotated[_Vector, told("Right", "none", "Direction along a row, columns rising.")]
@@ -91,11 +103,7 @@ class Detector(Model):
     @field_validator("rows")
     @classmethod
     def _is_not_too_large(cls, rows: int, info: ValidationInfo) -> int:
-        columns = info.data.get("columns", 1)
-        if columns * rows > MAX_PIXELS:
-            message = f"found {columns} × {rows} pixels; expected {MAX_PIXELS} at most"
-            refuse("too_large", ((), message))
-        return rows
+        return within_pixels(rows, info)
 
     @property
     def pitch_xy_mm(self) -> tuple[float, float]:
@@ -123,8 +131,10 @@ class Detector(Model):
         return center + across + down * (pitch_y * (row - (self.rows - 1) / 2))
 
 
-class View(Model):
+class View(Asked):
     """A tube and a detector; ``source`` is None for a parallel beam along ``direction``."""
+
+    place: ClassVar[str] = "/view"
 
     detector: Annotated[Detector, told("Detector", "none", "The flat detector.")]
     source: Annotated[
