@@ -1,0 +1,40 @@
+"""Files that are whole or not there: written beside their place, then renamed into it."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from pathlib import Path
+
+from phantom.errors import InvalidInputError, Problem
+
+
+def write_atomically(path: Path | str, data: bytes) -> None:
+    """Write a file that a reader, or a crash, never sees half-written.
+
+    An existing file is replaced. The temporary file lies in the same folder, so that the rename
+    stays within one file system, and is gone whatever happens.
+
+    Raises
+    ------
+    InvalidInputError
+        The folder is not there, or the path is a folder (``/output``).
+    """
+    path = Path(path)
+    if not path.parent.is_dir():
+        raise _refused("missing_folder", f"found no folder {str(path.parent)!r} to write into")
+    if path.is_dir():
+        raise _refused("is_a_folder", f"found a folder at {str(path)!r}, expected a file's name")
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}")
+    try:
+        with temporary.open("xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _refused(kind: str, message: str) -> InvalidInputError:
+    return InvalidInputError([Problem("/output", kind, message)])
