@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 from phantom.document.solids import LEAVES, label_of
-from phantom.document.tree import Parts, children, mapping, text
+from phantom.document.tree import PHANTOM, Node, Parts, children, mapping, text, used_by
 from phantom.document.words import quoted
 from phantom.errors import Problem, pointer
 
@@ -18,7 +17,7 @@ _HIDES_ITS_RIGHT = ("difference", "intersection")
 class _Use:
     """A solid where it stands once instances are expanded."""
 
-    solid: Mapping[str, Any]
+    solid: Node
     place: Parts  # where it is written
     use: Parts  # where the phantom's own tree uses it: its place, or its first instance's
     names: tuple[str, ...]
@@ -64,17 +63,16 @@ def leaf_problems(document: object) -> Iterator[Problem]:
 def _leaves(document: object) -> Iterator[_Use]:
     """Yield the leaves of the phantom from left to right, looking through instances."""
     definitions = mapping(mapping(document).get("definitions"))
-    place: Parts = ("solid",)
-    stack = [_Use(mapping(mapping(document).get("solid")), place, place, (), True)]
+    stack = [_Use(mapping(mapping(document).get("solid")), PHANTOM, PHANTOM, (), True)]
     while stack:
         at = stack.pop()
         kind, name = at.solid.get("type"), text(at.solid.get("name"))
         names = (*at.names, name) if name else at.names
         if kind == "instance":
-            used = at.solid.get("of")
-            if isinstance(used, str) and used in definitions:
-                solid, place = mapping(definitions[used]), ("definitions", used)
-                stack.append(_Use(solid, place, at.use, names, at.surfaces))
+            used = used_by(at.solid)
+            if used in definitions:
+                solid = mapping(definitions[used])
+                stack.append(_Use(solid, ("definitions", used), at.use, names, at.surfaces))
         elif isinstance(kind, str) and kind in LEAVES:
             yield _Use(at.solid, at.place, at.use, names, at.surfaces)
         else:

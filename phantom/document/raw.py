@@ -81,9 +81,11 @@ class Walk:
                     tally[0] += not is_object
                     if -1e300 < value < 1e300:
                         continue
+                if kind is str and value.isascii():
+                    continue
                 if isinstance(value, dict):
                     stack.append((value, (place, key), depth + 1, [0, None]))
-                elif isinstance(value, list | tuple):
+                elif isinstance(value, (list, tuple)):
                     # An array within an array counts into the outer one: points of one curve.
                     if is_object:
                         inner = [0, (place, key)]
@@ -104,13 +106,15 @@ class Walk:
     def keys(self, place: Place, node: dict[Any, Any]) -> None:
         """Look at the keys of an object."""
         for key in node:
+            if type(key) is str and key.isprintable() and len(key) <= LONGEST_KEY:
+                continue  # neither control characters nor surrogates are printable
             if not isinstance(key, str):
                 message = f"found the key {found(key)}; expected a string"
                 self.report(place, "bad_key", message, fatal=True)
             elif len(key) > LONGEST_KEY:
                 message = f"found a key of {len(key)} characters; expected at most {LONGEST_KEY}"
                 self.report(place, "bad_key", message, fatal=True)
-            elif not key.isprintable() and any(c < " " or c == "\x7f" for c in key):
+            elif any(c < " " or c == "\x7f" for c in key):
                 message = f"found the key {quoted(key)}; expected no control characters"
                 self.report(place, "bad_key", message, fatal=True)
             elif has_lone_surrogate(key):

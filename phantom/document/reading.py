@@ -10,6 +10,7 @@ from phantom.document.json_text import decode_json
 from phantom.document.labels import leaf_problems
 from phantom.document.nesting import extents, oversize
 from phantom.document.references import in_order, undefined_names, uses
+from phantom.document.tree import survey
 from phantom.document.validation import judge
 from phantom.document.words import arranged, quoted
 from phantom.document.yaml_text import decode_yaml
@@ -63,13 +64,13 @@ def parse(tree: object) -> Document:
 
 def across(tree: object) -> Iterator[Problem]:
     """Yield the problems that no single part of a document shows."""
-    yield from undefined_names(tree)
-    order, circles = in_order(uses(tree))
+    solids = survey(tree)
+    yield from undefined_names(tree, solids)
+    order, circles = in_order(uses(solids))
     yield from circles
     if circles:
         return
-    sizes = extents(tree, order)
-    too_large = list(oversize(tree, sizes))
+    too_large = list(oversize(extents(solids, order), solids))
     yield from too_large
     if not too_large:
         yield from leaf_problems(tree)

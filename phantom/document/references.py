@@ -4,38 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from phantom.document.tree import Parts, every_solid, mapping, roots, text
+from phantom.document.tree import Parts, Placed, mapping, text, used_by
 from phantom.document.words import listed, quoted
 from phantom.errors import Problem, pointer
 
+Survey = Mapping[Parts, list[Placed]]
 
-def undefined_names(document: object) -> Iterator[Problem]:
+
+def undefined_names(document: object, solids: Survey) -> Iterator[Problem]:
     """Yield a problem for every material and definition that is used and not there."""
     node = mapping(document)
     materials, definitions = mapping(node.get("materials")), mapping(node.get("definitions"))
-    for place, root in roots(document):
-        for at, solid in every_solid(root, place):
-            kind = solid.get("type")
-            used, known, noun, field = solid.get("material"), materials, "material", "material"
-            if kind == "instance":
-                used, known, noun, field = solid.get("of"), definitions, "definition", "of"
-            name, is_table = text(used), isinstance(node.get(f"{noun}s", {}), Mapping)
-            if name is not None and name not in known and is_table:
+    for placed in solids.values():
+        for at, solid in placed:
+            name, known, noun, field = (
+                text(solid.get("material")),
+                materials,
+                "material",
+                "material",
+            )
+            if solid.get("type") == "instance":
+                name, known, noun, field = used_by(solid), definitions, "definition", "of"
+            if (
+                name is not None
+                and name not in known
+                and isinstance(node.get(noun + "s", {}), dict)
+            ):
                 message = f"found {quoted(name)}; expected one of the {noun}s: {listed(known)}"
                 yield Problem(pointer((*at, field)), f"undefined_{noun}", message)
 
 
-def uses(document: object) -> dict[str, list[tuple[Parts, str]]]:
+def uses(solids: Survey) -> dict[str, list[tuple[Parts, str]]]:
     """Return, for each definition, its instances: (place, name of the definition used)."""
-    definitions = mapping(mapping(document).get("definitions"))
-    return {
-        name: [
-            (at, solid["of"])
-            for at, solid in every_solid(root, ("definitions", name))
-            if solid.get("type") == "instance" and text(solid.get("of")) in definitions
-        ]
-        for name, root in definitions.items()
-    }
+    graph: dict[str, list[tuple[Parts, str]]] = {}
+    for root, placed in solids.items():
+        if root[0] == "definitions":
+            named = [(at, used_by(solid)) for at, solid in placed]
+            graph[str(root[1])] = [
+                (at, name) for at, name in named if name and ("definitions", name) in solids
+            ]
+    return graph
 
 
 def in_order(graph: dict[str, list[tuple[Parts, str]]]) -> tuple[list[str], list[Problem]]:
