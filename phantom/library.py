@@ -40,14 +40,15 @@ class Technique:
     energy_kev
         Energy of the monochromatic beam.
     source_detector_mm, object_detector_mm
-        Distances from the detector to the source and to the isocentre.
+        Distances from the detector to the source and to the isocentre; None for the latter means
+        as near as the phantom lets it.
     polarity
         ``bones_white``, or ``bones_dark`` as in the paper.
     """
 
     energy_kev: float = 60.0
     source_detector_mm: float = 1150.0
-    object_detector_mm: float = 100.0
+    object_detector_mm: float | None = None
     polarity: str = "bones_white"
 
 

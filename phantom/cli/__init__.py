@@ -1,0 +1,32 @@
+"""The command line: the words of the HTTP service, for a terminal.
+
+Nothing of the engine is imported before a command runs, so that ``phantom --help`` is instant.
+"""
+
+from __future__ import annotations
+
+import typer
+
+from phantom.cli import documents, library, radiograph, serve
+
+app = typer.Typer(
+    name="phantom",
+    help="Exact X-ray images of phantoms: documents in, radiographs out.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+app.command("list")(library.list_phantoms)
+app.command("show")(library.show)
+app.command("validate")(documents.validate)
+app.command("radiograph")(radiograph.make)
+app.command("serve")(serve.serve)
+
+
+def main() -> None:
+    """Run the command line; the console script ``phantom``."""
+    app()
+
+
+__all__ = ["app", "main"]

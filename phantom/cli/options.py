@@ -1,0 +1,52 @@
+"""Arguments that several commands share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+AsJson = Annotated[bool, typer.Option("--json", help="Answer, and complain, in JSON.")]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help="A parameter of the library phantom."),
+]
+
+
+def subject(target: str, settings: list[str] | None) -> dict[str, object]:
+    """Return the request's ``phantom`` for a library name or a document's file.
+
+    Raises
+    ------
+    InvalidInputError
+        A file that cannot be read, or parameters given for one.
+    """
+    from phantom import library
+    from phantom.errors import InvalidInputError, Problem
+    from phantom.requests.words import parameters
+
+    is_file = Path(target).suffix.lower() in (".json", ".yaml", ".yml") or Path(target).is_file()
+    if target in library.names() or not is_file:
+        return {"name": target, "parameters": parameters(map(_pair, settings or ()))}
+    if settings:
+        message = "found --set with a file; expected it with a phantom of the library"
+        raise InvalidInputError([Problem("/phantom/parameters", "unknown_field", message)])
+    return {"document": read_file(target)}
+
+
+def read_file(name: str) -> object:
+    """Return the tree in a document's file, JSON or YAML."""
+    from phantom.document.reading import _read_file
+
+    return _read_file(Path(name))
+
+
+def _pair(text: str) -> tuple[str, str]:
+    from phantom.errors import InvalidInputError, Problem
+
+    name, equals, value = text.partition("=")
+    if not equals:
+        message = f"found --set {text[:60]!r}; expected NAME=VALUE"
+        raise InvalidInputError([Problem("/phantom/parameters", "not_a_pair", message)])
+    return name.strip(), value

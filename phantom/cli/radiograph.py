@@ -1,0 +1,118 @@
+"""``phantom radiograph``: X-ray a phantom and write the picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from phantom.cli.console import Bar, answer, reporting, say
+from phantom.cli.options import AsJson, Settings, subject
+
+if TYPE_CHECKING:
+    from phantom.imaging import Radiograph
+    from phantom.requests.radiograph import RadiographPlan
+
+
+def _word(help_text: str, metavar: str, flag: str) -> Any:
+    """Return an option whose text means what it means in a query string."""
+    return typer.Option(flag, help=help_text, metavar=metavar)
+
+
+def make(
+    target: Annotated[
+        str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
+    ],
+    output: Annotated[
+        str | None,
+        typer.Option("-o", "--output", help="Where to; .png or .npy.", metavar="FILE"),
+    ] = None,
+    view: Annotated[
+        str | None, _word("Preset, or a source and detector in JSON.", "VIEW", "--view")
+    ] = None,
+    source_detector_mm: Annotated[
+        str | None, _word("Source to detector.", "MM", "--source-detector-mm")
+    ] = None,
+    source_object_mm: Annotated[
+        str | None, _word("Source to isocentre.", "MM", "--source-object-mm")
+    ] = None,
+    object_detector_mm: Annotated[
+        str | None, _word("Isocentre to detector.", "MM", "--object-detector-mm")
+    ] = None,
+    angle_deg: Annotated[str | None, _word("Of an oblique.", "DEG", "--angle-deg")] = None,
+    primary_angle_deg: Annotated[
+        str | None, _word("Of c_arm, to the left.", "DEG", "--primary-angle-deg")
+    ] = None,
+    secondary_angle_deg: Annotated[
+        str | None, _word("Of c_arm, to the head.", "DEG", "--secondary-angle-deg")
+    ] = None,
+    laterality: Annotated[
+        str | None, _word("Side of a limb or breast.", "left|right", "--laterality")
+    ] = None,
+    columns: Annotated[str | None, _word("Pixels in a row.", "N", "--columns")] = None,
+    rows: Annotated[str | None, _word("Pixels in a column.", "N", "--rows")] = None,
+    pitch_mm: Annotated[str | None, _word("Distance of pixel centres.", "MM", "--pitch-mm")] = None,
+    energy_kev: Annotated[str | None, _word("Photon energy.", "KEV", "--energy-kev")] = None,
+    quantity: Annotated[
+        str | None,
+        _word("signal, transmission, line_integral or path_lengths.", "NAME", "--quantity"),
+    ] = None,
+    mode: Annotated[str | None, _word("How grey is chosen.", "stretch", "--mode")] = None,
+    polarity: Annotated[
+        str | None, _word("Which end bones have.", "bones_white|bones_dark", "--polarity")
+    ] = None,
+    bits: Annotated[str | None, _word("Of a grey level.", "8|16", "--bits")] = None,
+    sidecar: Annotated[
+        bool, typer.Option("--sidecar", help="Write the metadata beside it, as .json.")
+    ] = False,
+    settings: Settings = None,
+    as_json: AsJson = False,
+) -> None:
+    """X-ray a phantom of the library, or a document, and write the picture."""
+    options = {**locals()}
+    with reporting(as_json=as_json):
+        from phantom.encode import format_of_path
+        from phantom.requests.radiograph import plan
+        from phantom.requests.words import WORDS, request_tree
+
+        given = {word: options[word] for word in WORDS if options[word] is not None}
+        planned = plan(*request_tree(subject(target, settings), given.items()))
+        pose = planned.chosen.get("view", "view")
+        path = Path(output or f"{planned.phantom.document.name}-{pose}.png")
+        planned.check_format(format_of_path(path))
+        _tell_defaults(planned, given, None if output else path)
+        made = _render(planned, path, sidecar=sidecar)
+        for warning in made.warnings:
+            say(f"warning: {warning}")
+        if as_json:
+            answer({"output": str(path), **made.metadata()})
+
+
+def _tell_defaults(
+    planned: RadiographPlan, given: Mapping[str, object], output: Path | None
+) -> None:
+    """Say in one line every value that was chosen for the person."""
+    chosen = {**planned.chosen, **({} if output is None else {"output": output})}
+    told = {word: value for word, value in chosen.items() if word not in given}
+    if told:
+        say("chosen: " + " ".join(f"{word}={_short(value)}" for word, value in told.items()))
+
+
+def _render(planned: RadiographPlan, path: Path, *, sidecar: bool) -> Radiograph:
+    """Trace the radiograph and write it."""
+    from phantom.cli.engine import ready
+    from phantom.encode import save
+
+    ready()
+    with Bar("tracing") as bar:
+        made = planned.render(progress=bar)
+    save(made, path, planned.quantity, planned.presentation, sidecar=sidecar)
+    say(f"wrote {path}")
+    return made
+
+
+def _short(value: object) -> str:
+    """Return a whole number without its decimal point, all else as it is."""
+    return f"{value:.0f}" if isinstance(value, float) and value.is_integer() else str(value)

@@ -1,0 +1,167 @@
+"""A radiograph as it is asked for, from the request to the arrays."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Annotated, Literal, TypeVar
+
+import numpy as np
+from pydantic import Field
+
+from phantom import library
+from phantom.document import Model, told
+from phantom.encode import Format
+from phantom.errors import InvalidInputError, Problem
+from phantom.imaging import (
+    Beam,
+    DetectorGrid,
+    Presentation,
+    Radiograph,
+    View,
+    document_sha256,
+    radiograph,
+)
+from phantom.requests.limits import Limits
+from phantom.requests.subject import LibraryPhantom, Subject, read_request
+from phantom.requests.viewpoint import PlacedView, PresetView, Viewpoint, view_of
+from phantom.scene import Phantom
+
+ModelT = TypeVar("ModelT", bound=Model)
+Quantity = Literal["signal", "transmission", "line_integral", "path_lengths"]
+
+
+class RadiographRequest(Model):
+    """What is X-rayed, from where and how; everything but the phantom has a default."""
+
+    phantom: Annotated[Subject, told("Phantom", "none", "What is X-rayed.")]
+    view: Annotated[Viewpoint, told("View", "none", "From where.")] = Field(
+        default_factory=PresetView
+    )
+    detector: Annotated[DetectorGrid, told("Detector", "none", "The pixels.")] = Field(
+        default_factory=DetectorGrid
+    )
+    beam: Annotated[Beam, told("Beam", "none", "The photons.")] = Field(default_factory=Beam)
+    quantity: Annotated[Quantity, told("Quantity", "none", "What a pixel holds.")] = "signal"
+    presentation: Annotated[Presentation, told("Presentation", "none", "How it is shown.")] = Field(
+        default_factory=Presentation
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class RadiographPlan:
+    """A radiograph with every default filled in and every limit checked, not yet traced."""
+
+    phantom: Phantom
+    view: View
+    beam: Beam
+    quantity: Quantity
+    presentation: Presentation
+    chosen: dict[str, object]
+    """The value of every flat word (`phantom.requests.words`) that has one."""
+
+    def fingerprint(self) -> str:
+        """Return a hash of all that the result depends on, the same for equal requests."""
+        content = {
+            "engine": version("phantom-xray"),
+            "encoder": version("OpenImageIO"),
+            "document": document_sha256(self.phantom.document),
+            "view": self.view.model_dump(mode="json"),
+            "beam": self.beam.model_dump(mode="json"),
+            "quantity": self.quantity,
+            "presentation": self.presentation.model_dump(mode="json"),
+        }
+        canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
+        return hashlib.sha256(canonical.encode()).hexdigest()
+
+    def check_format(self, format: Format) -> None:
+        """Refuse a file format that cannot hold the quantity, before anything is traced."""
+        if self.quantity not in format.quantities:
+            held = ", ".join(format.quantities)
+            message = f"found {self.quantity!r}, but {format.name} holds one of {held}"
+            raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
+
+    def render(
+        self,
+        *,
+        cancelled: Callable[[], bool] | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Radiograph:
+        """Trace it.
+
+        Raises
+        ------
+        CancelledError
+            ``cancelled()`` turned true.
+        """
+        return radiograph(
+            self.phantom, self.view, self.beam, cancelled=cancelled, progress=progress
+        )
+
+
+def plan(
+    tree: object, known: Iterable[Problem] = (), limits: Limits | None = None
+) -> RadiographPlan:
+    """Return what a request, as decoded from JSON, asks for.
+
+    Problems already ``known`` are listed among those that are found.
+
+    Raises
+    ------
+    InvalidInputError
+        Every problem found, with the path of its field in the request.
+    """
+    request, phantom = read_request(RadiographRequest, tree, known)
+    technique, recommended = library.Technique(), "ap"
+    if isinstance(request.phantom, LibraryPhantom):
+        entry = library.entry(request.phantom.name)
+        technique, recommended = entry.technique, entry.views[0]
+    grid = request.detector
+    # A detector is square where only its columns are given.
+    if "rows" not in grid.model_fields_set:
+        grid = grid.model_copy(update={"rows": grid.columns})
+    (limits or Limits()).check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
+    view = view_of(phantom, request.view, grid, technique, recommended)
+    detector = view.detector
+    beam = _filled(request.beam, energy_kev=technique.energy_kev)
+    presentation = _filled(request.presentation, polarity=technique.polarity)
+    chosen = {
+        **_placing(phantom, request.view, view, recommended),
+        "columns": detector.columns,
+        "rows": detector.rows,
+        "pitch_mm": detector.pitch_mm,
+        **beam.model_dump(),
+        "quantity": request.quantity,
+        **presentation.model_dump(),
+    }
+    return RadiographPlan(phantom, view, beam, request.quantity, presentation, chosen)
+
+
+def _filled(model: ModelT, **defaults: object) -> ModelT:
+    """Return the model with these values where the request left them out, still marked as such."""
+    said = {name: getattr(model, name) for name in model.model_fields_set}
+    content = {**model.model_dump(), **defaults, **said}
+    return type(model).model_construct(_fields_set=model.model_fields_set, **content)
+
+
+def _placing(
+    phantom: Phantom, wanted: PresetView | PlacedView, view: View, recommended: str
+) -> dict[str, object]:
+    """Return the words of a preset as it came out; a view in full has none."""
+    if isinstance(wanted, PlacedView):
+        return {}
+    preset = wanted.preset if "preset" in wanted.model_fields_set else recommended
+    aim = phantom.isocentre if wanted.isocentre is None else wanted.isocentre
+    center = view.detector.center
+    return {
+        "view": preset,
+        "source_detector_mm": _distance_mm(center, view.source or center),
+        "object_detector_mm": _distance_mm(center, aim),
+    }
+
+
+def _distance_mm(one: Iterable[float], other: Iterable[float]) -> float:
+    return round(float(np.linalg.norm(np.subtract(tuple(one), tuple(other)))), 6)
