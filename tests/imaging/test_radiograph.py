@@ -81,10 +81,10 @@ def test_leaves_that_leave_the_field_are_named(balls: Phantom) -> None:
         ).truncated
 
     assert cut() == ()
-    assert cut(pitch_mm=1.5) == ()
-    assert cut(pitch_mm=1.4) == ("left",)
-    assert cut(pitch_mm=1.2) == ("large", "left")
-    assert cut(pitch_mm=0.1) == ("large", "left")
+    assert cut(pitch_mm=1.5, isocentre=[0, 0, 0]) == ()
+    assert cut(pitch_mm=1.4, isocentre=[0, 0, 0]) == ("left",)
+    assert cut(pitch_mm=1.2, isocentre=[0, 0, 0]) == ("large", "left")
+    assert cut(pitch_mm=0.1, isocentre=[0, 0, 0]) == ("large", "left")
     assert cut(pitch_mm=0.4, isocentre=[25, 0, 10]) == ("large",)
     assert cut(pitch_mm=0.4, isocentre=[-25, 0, 10]) == ("large", "left")
 
