@@ -15,7 +15,7 @@ from phantom.errors import InvalidInputError, Problem
 from phantom.imaging.camera import box_corners, projection
 from phantom.imaging.poses import DEFAULT_ANGLE_DEG, DEFAULT_LATERALITY, Laterality, Pose, pose
 from phantom.imaging.presets import PREVIEW_PIXELS, DetectorGrid, Preset
-from phantom.imaging.view import MIN_PITCH_MM, Detector, View
+from phantom.imaging.view import MAX_PITCH_MM, MIN_PITCH_MM, Detector, View
 
 if TYPE_CHECKING:
     from phantom.scene import Phantom
@@ -50,15 +50,20 @@ def place(phantom: Phantom, preset: Preset, grid: DetectorGrid | None = None) ->
     corners = box_corners(phantom.bounds) - aim
     behind = _object_detector_mm(preset, float(np.max(corners @ at.beam)))
     source = aim - (preset.source_detector_mm - behind) * at.beam
-    detector = Detector(
-        center=aim + behind * at.beam,
-        right=at.right,
-        down=at.down,
-        columns=grid.columns,
-        rows=grid.rows,
-        pitch_mm=1.0 if grid.pitch_mm is None else grid.pitch_mm,
-    )
-    view = View(source=source, detector=detector)
+    try:
+        detector = Detector(
+            center=aim + behind * at.beam,
+            right=at.right,
+            down=at.down,
+            columns=grid.columns,
+            rows=grid.rows,
+            pitch_mm=1.0 if grid.pitch_mm is None else grid.pitch_mm,
+        )
+        view = View(source=source, detector=detector)
+    except InvalidInputError as error:
+        # Only the distances can still be wrong, and the caller gave no source and no centre.
+        message = f"these distances put tube or detector where they cannot be: {error}"
+        raise InvalidInputError([Problem("/view", "out_of_range", message)]) from None
     return view if grid.pitch_mm is not None else covering(phantom, view)
 
 
@@ -71,7 +76,7 @@ def covering(phantom: Phantom, view: View) -> View:
     Raises
     ------
     InvalidInputError
-        The box reaches behind the source (``/detector/pitch_mm``).
+        The box reaches behind the source, or is too large (``/detector/pitch_mm``).
     """
     detector = view.detector
     pixels = np.array([detector.columns, detector.rows], dtype=np.float64)
@@ -81,6 +86,9 @@ def covering(phantom: Phantom, view: View) -> View:
         raise InvalidInputError([Problem("/detector/pitch_mm", "missing", message)])
     widths_mm = 2 * np.abs(shadow).max(axis=0) * detector.pitch_xy_mm
     needed = max(float((widths_mm / pixels).max()) * COVER_MARGIN, MIN_PITCH_MM)
+    if needed > MAX_PITCH_MM:
+        message = f"the phantom needs a pitch of {needed:.4g} mm; expected {MAX_PITCH_MM:g} at most"
+        raise InvalidInputError([Problem("/detector/pitch_mm", "out_of_range", message)])
     digits = 2 - math.floor(math.log10(needed))
     pitch_mm = math.ceil(round(needed * 10.0**digits, 6)) / 10.0**digits
     return View(

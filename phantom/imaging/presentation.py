@@ -1,6 +1,6 @@
 """From a quantity to grey levels.
 
-The paper's contrast stretching (section III.E): the least value becomes 0 and the greatest full
+The paper's contrast stretching (section II.I): the least value becomes 0 and the greatest full
 scale, linearly. Polarity: bones white is full scale minus the stretched transmission; bones dark,
 the paper's, is the stretched transmission itself.
 """

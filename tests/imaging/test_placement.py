@@ -96,6 +96,8 @@ REFUSED: list[tuple[dict[str, Any], str, str]] = [
     ({"columns": 0}, "/detector/columns", "out_of_range"),
     ({"pitch_mm": 0}, "/detector/pitch_mm", "out_of_range"),
     ({"source_detector_mm": 105}, "/detector/pitch_mm", "missing"),
+    ({"source_detector_mm": 1e7, "isocentre": [0, 1e7, 0]}, "/view", "out_of_range"),
+    ({"isocentre": [1e6, 0, 0]}, "/detector/pitch_mm", "out_of_range"),
     ({"source_detector_mm": 90}, "/view/source_detector_mm", "too_near"),
 ]
 
