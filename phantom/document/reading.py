@@ -37,10 +37,10 @@ def read(source: Path | str | bytes | Mapping[str, object] | Document) -> Docume
     if isinstance(source, Document):
         return parse(source.model_dump(mode="python"))
     if isinstance(source, Mapping):
-        return parse(dict(source))
+        return parse(source if isinstance(source, dict) else dict(source))
     try:
         if isinstance(source, Path) or (isinstance(source, str) and _is_path(source)):
-            tree = _read_file(Path(source))
+            tree = read_tree(Path(source))
         else:
             tree = decode_json(source)
     except InvalidInputError as error:
@@ -87,7 +87,8 @@ def _is_path(text: str) -> bool:
         return False
 
 
-def _read_file(path: Path) -> object:
+def read_tree(path: Path) -> object:
+    """Return the tree in a file, YAML or else JSON by its ending; nothing of it is judged yet."""
     shown = quoted(str(path)[-60:])
     try:
         if path.stat().st_size > LARGEST_FILE_BYTES:
