@@ -48,5 +48,5 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(plain) == len(pairs):
         return plain
     marked = RepeatedKeys(plain)
-    marked.repeated = tuple(key for key, count in Counter(k for k, _ in pairs).items() if count > 1)
+    marked.repeated = [key for key, count in Counter(k for k, _ in pairs).items() if count > 1]
     return marked

@@ -24,7 +24,9 @@ Place = tuple[Any, Any] | None  # (place of the parent, key): a path as a linked
 class RepeatedKeys(dict[str, Any]):
     """An object of an input in which keys stand more than once; ``repeated`` lists them."""
 
-    repeated: tuple[str, ...] = ()
+    def __init__(self, *values: Any) -> None:
+        super().__init__(*values)
+        self.repeated: list[str] = []
 
 
 def path_of(place: Place) -> str:

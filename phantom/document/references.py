@@ -9,28 +9,22 @@ from phantom.document.words import listed, quoted
 from phantom.errors import Problem, pointer
 
 Survey = Mapping[Parts, list[Placed]]
+_DONE = -1
 
 
 def undefined_names(document: object, solids: Survey) -> Iterator[Problem]:
     """Yield a problem for every material and definition that is used and not there."""
     node = mapping(document)
-    materials, definitions = mapping(node.get("materials")), mapping(node.get("definitions"))
+    tables = {noun: node.get(f"{noun}s", {}) for noun in ("material", "definition")}
+    known = {noun: listed(mapping(table)) for noun, table in tables.items()}
     for placed in solids.values():
         for at, solid in placed:
-            name, known, noun, field = (
-                text(solid.get("material")),
-                materials,
-                "material",
-                "material",
-            )
+            noun, field, name = "material", "material", text(solid.get("material"))
             if solid.get("type") == "instance":
-                name, known, noun, field = used_by(solid), definitions, "definition", "of"
-            if (
-                name is not None
-                and name not in known
-                and isinstance(node.get(noun + "s", {}), dict)
-            ):
-                message = f"found {quoted(name)}; expected one of the {noun}s: {listed(known)}"
+                noun, field, name = "definition", "of", used_by(solid)
+            # A table that is no object is a problem of its own and defines nothing.
+            if name and isinstance(tables[noun], dict) and name not in tables[noun]:
+                message = f"found {quoted(name)}; expected one of the {noun}s: {known[noun]}"
                 yield Problem(pointer((*at, field)), f"undefined_{noun}", message)
 
 
@@ -50,27 +44,29 @@ def in_order(graph: dict[str, list[tuple[Parts, str]]]) -> tuple[list[str], list
     """Return the definitions, each after those it uses, and the circles among them."""
     order: list[str] = []
     problems: list[Problem] = []
-    state: dict[str, int] = {}  # 1: on the way down, 2: done
+    way: list[tuple[str, Iterator[tuple[Parts, str]]]] = []
+    reached: dict[str, int] = {}  # how far down the way a definition is, or _DONE
     for start in graph:
-        if start in state:
+        if start in reached:
             continue
-        state[start], way = 1, [(start, iter(graph[start]))]
+        reached[start] = 0
+        way.append((start, iter(graph[start])))
         while way:
             name, rest = way[-1]
             for at, used in rest:
-                if used not in state:
-                    state[used] = 1
+                if used not in reached:
+                    reached[used] = len(way)
                     way.append((used, iter(graph[used])))
                     break
-                if state[used] == 1:
-                    names = [step for step, _ in way]
-                    circle = [*names[names.index(used) :], used]
-                    shown = " → ".join(quoted(step) for step in circle[:6])
-                    shown += "" if len(circle) <= 6 else f" … ({len(circle)} steps)"
+                if reached[used] != _DONE:
+                    steps = len(way) - reached[used]
+                    names = [quoted(step) for step, _ in way[reached[used] : reached[used] + 6]]
+                    shown = " → ".join([*names, quoted(used)] if steps <= 6 else names)
+                    shown += "" if steps <= 6 else f" … ({steps} steps)"
                     message = f"found an instance within itself: {shown}; expected no circle"
                     problems.append(Problem(pointer((*at, "of")), "cyclic_instance", message))
             else:
                 way.pop()
-                state[name] = 2
+                reached[name] = _DONE
                 order.append(name)
     return order, problems

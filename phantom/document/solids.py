@@ -144,29 +144,6 @@ class Instance(Model):
 
 Leaf = Sphere | Ellipsoid | Cylinder | Cone | DoubleCone | Box | Quadric | GeneralizedCylinder
 
-Solid = Annotated[
-    Sphere
-    | Ellipsoid
-    | Cylinder
-    | Cone
-    | DoubleCone
-    | Box
-    | Quadric
-    | GeneralizedCylinder
-    | Union
-    | Intersection
-    | Difference
-    | Overlap
-    | Replace
-    | Transformed
-    | Instance,
-    by_type(
-        *("sphere", "ellipsoid", "cylinder", "cone", "double_cone", "box", "quadric"),
-        *("generalized_cylinder", "union", "intersection", "difference", "overlap", "replace"),
-        *("transformed", "instance"),
-    ),
-]
-
 LEAVES: Final[dict[str, type[LeafModel]]] = {
     "sphere": Sphere,
     "ellipsoid": Ellipsoid,
@@ -187,6 +164,25 @@ OPERATORS: Final[dict[str, type[Operator]]] = {
     "replace": Replace,
 }
 """Type tag to class of the five operators."""
+
+Solid = Annotated[
+    Sphere
+    | Ellipsoid
+    | Cylinder
+    | Cone
+    | DoubleCone
+    | Box
+    | Quadric
+    | GeneralizedCylinder
+    | Union
+    | Intersection
+    | Difference
+    | Overlap
+    | Replace
+    | Transformed
+    | Instance,
+    by_type(*LEAVES, *OPERATORS, "transformed", "instance"),
+]
 
 for _operator in OPERATORS.values():
     _operator.model_rebuild()

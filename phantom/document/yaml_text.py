@@ -106,7 +106,7 @@ class _Builder:
             frame[1] = value
             return value
         if key in container:
-            container.repeated = (*container.repeated, key)
+            container.repeated.append(key)
         container[key] = scalar(value) if plain else value
         frame[1] = _UNSET
         return container[key]
