@@ -7,6 +7,7 @@ the piece, so that both one-sided values at a break can be had.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import factorial
 from typing import Protocol
 
 import numpy as np
@@ -113,11 +114,15 @@ def _bspline(axis: doc.BSplineAxis) -> Curve:
     knots = np.concatenate(
         [np.zeros(axis.degree), np.linspace(0.0, 1.0, inner), np.ones(axis.degree)]
     )
-    full = PPoly.from_spline(BSpline(knots, points, axis.degree))
-    # The clamped ends repeat their knots; only pieces of positive length are kept.
-    kept = np.flatnonzero(np.diff(full.x) > 0)
-    breaks = np.concatenate([full.x[kept], full.x[-1:]])
-    return PiecewiseCurve(breaks, np.ascontiguousarray(np.moveaxis(full.c[::-1, kept], 0, 1)))
+    spline = BSpline(knots, points, axis.degree)
+    breaks = np.linspace(0.0, 1.0, inner)
+    # Taylor coefficients from the right at every break are the piece's own polynomial.
+    orders = range(axis.degree + 1)
+    taylor = [
+        spline.derivative(k)(breaks[:-1]) / factorial(k) if k else spline(breaks[:-1])
+        for k in orders
+    ]
+    return PiecewiseCurve(breaks, np.ascontiguousarray(np.stack(taylor, axis=1)))
 
 
 def _arc(axis: doc.ArcAxis) -> Curve:

@@ -1,0 +1,1 @@
+"""Documents turned into flat arrays that kernels read."""

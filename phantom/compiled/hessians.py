@@ -1,0 +1,132 @@
+"""Bounds of the second derivatives of G(x) = h(phi(x, tau(x))) over a segment, by intervals.
+
+With ``F = N.x - c`` and ``J = -dF/dtau``, differentiating the implicit tau twice gives
+
+    grad phi_i = M_i + s_i N,                         s_i = (M_i'.x - m_i') / J
+    Hess phi_i = (V_i N^T + N V_i^T + b_i N N^T / J) / J
+                 V_i = M_i' + s_i N',   b_i = M_i''.x - m_i'' - s_i (c'' - N''.x)
+    Hess G     = sum h_ij grad phi_i grad phi_j^T + sum h_i Hess phi_i
+
+Every term is bounded over small cells of (tau, two box coordinates); the third coordinate follows
+from the section plane. The polynomials are the traced ones, so the bounds hold for the surface that
+is traced, not for an ideal one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from phantom.compiled.intervals import Interval, dot
+from phantom.compiled.sections import CircleSection, StarSection
+from phantom.compiled.segments import Segments
+from phantom.geometry.polynomials import DEGREE, bernstein_matrix, derivative
+
+Floats = NDArray[np.float64]
+
+_TAU_CELLS = 4
+_BOX_CELLS = 4
+_WIDEN = 1e-9
+_BATCH = 256
+
+PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+"""Entries of the Hessian along the box axes e1, e2, t, in stored order."""
+
+
+def hessian_bounds(segments: Segments, section: CircleSection | StarSection) -> Floats:
+    """Return ``(K, 6, 2)`` bounds of the Hessian of G along the box axes, per mm^2."""
+    count = len(segments.origins)
+    result = np.empty((count, 6, 2))
+    for first in range(0, count, _BATCH):
+        chosen = slice(first, min(first + _BATCH, count))
+        result[chosen] = _batch(segments, section, chosen)
+    return result
+
+
+def _batch(segments: Segments, section: CircleSection | StarSection, chosen: slice) -> Floats:
+    polynomials = segments.polynomials[chosen]
+    axes, boxes = segments.axes[chosen], segments.boxes[chosen]
+    local = polynomials.copy()
+    for row in (0, 4, 8):
+        local[:, row : row + 3] = np.einsum("kai,kip->kap", axes, polynomials[:, row : row + 3])
+    orders = [local, derivative(local), derivative(derivative(local))]
+    ranges = [_tau_ranges(p) for p in orders]
+
+    def vector(order: int, row: int) -> list[Interval]:
+        return [_pick(ranges[order], row + j) for j in range(3)]
+
+    def scalar(order: int, row: int) -> Interval:
+        return _pick(ranges[order], row)
+
+    n0, n1, n2 = (vector(order, 0) for order in range(3))
+    x = _points(n0, scalar(0, 3), boxes)
+    j = scalar(1, 3) - dot(n1, x)
+    j = Interval(np.maximum(j.low, segments.j_min), np.maximum(j.high, segments.j_min))
+    over_j = j.reciprocal()
+    bend = scalar(2, 3) - dot(n2, x)
+    phi, gradients, hessians = [], [], []
+    for row in (4, 8):
+        m0, m1, m2 = (vector(order, row) for order in range(3))
+        phi.append(dot(m0, x) - scalar(0, row + 3))
+        slope = (dot(m1, x) - scalar(1, row + 3)) * over_j
+        gradients.append([m0[a] + slope * n0[a] for a in range(3)])
+        v = [m1[a] + slope * n1[a] for a in range(3)]
+        b = (dot(m2, x) - scalar(2, row + 3) - slope * bend) * over_j
+        hessians.append(
+            [(v[a] * n0[c] + v[c] * n0[a] + b * (n0[a] * n0[c])) * over_j for a, c in PAIRS]
+        )
+    h = section.over(phi[0], phi[1])
+    g = gradients
+    bounds = np.empty((len(axes), 6, 2))
+    for index, (a, c) in enumerate(PAIRS):
+        if a == c:
+            quadratic = (
+                h.hessian[0] * g[0][a].squared()
+                + h.hessian[1] * (g[0][a] * g[1][a]) * 2.0
+                + h.hessian[2] * g[1][a].squared()
+            )
+        else:
+            quadratic = (
+                h.hessian[0] * (g[0][a] * g[0][c])
+                + h.hessian[1] * (g[0][a] * g[1][c] + g[0][c] * g[1][a])
+                + h.hessian[2] * (g[1][a] * g[1][c])
+            )
+        entry = quadratic + h.gradient[0] * hessians[0][index] + h.gradient[1] * hessians[1][index]
+        bounds[:, index, 0] = entry.low.reshape(len(axes), -1).min(axis=1)
+        bounds[:, index, 1] = entry.high.reshape(len(axes), -1).max(axis=1)
+    slack = _WIDEN * np.abs(bounds).max(axis=(1, 2))
+    bounds[..., 0] -= slack[:, None]
+    bounds[..., 1] += slack[:, None]
+    return bounds
+
+
+def _tau_ranges(polynomials: Floats) -> tuple[Floats, Floats]:
+    """Ranges over the cells of tau: two arrays (K, cells, 12)."""
+    edges = np.linspace(-1, 1, _TAU_CELLS + 1)
+    low, high = [], []
+    for a, b in zip(edges, edges[1:], strict=False):
+        control = polynomials @ bernstein_matrix(DEGREE, float(a), float(b)).T
+        low.append(control.min(axis=-1))
+        high.append(control.max(axis=-1))
+    return np.stack(low, axis=1), np.stack(high, axis=1)
+
+
+def _pick(ranges: tuple[Floats, Floats], row: int) -> Interval:
+    return Interval(ranges[0][:, :, row, None, None], ranges[1][:, :, row, None, None])
+
+
+def _points(normal: list[Interval], level: Interval, boxes: Floats) -> list[Interval]:
+    """Cells of x along e1, e2 and t; x_t is what the section plane leaves of the box."""
+    fractions = np.linspace(0, 1, _BOX_CELLS + 1)
+    edges = boxes[:, :2, :1] + fractions * (boxes[:, :2, 1:] - boxes[:, :2, :1])
+    first = Interval(edges[:, 0, None, :-1, None], edges[:, 0, None, 1:, None])
+    second = Interval(edges[:, 1, None, None, :-1], edges[:, 1, None, None, 1:])
+    low, high = (boxes[:, 2, k][:, None, None, None] for k in (0, 1))
+    upright = normal[2].low > 0
+    safe = Interval(np.where(upright, normal[2].low, 1.0), np.where(upright, normal[2].high, 1.0))
+    along = (level - normal[0] * first - normal[1] * second) * safe.reciprocal()
+    third = Interval(
+        np.where(upright, np.clip(along.low, low, high), low),
+        np.where(upright, np.clip(along.high, low, high), high),
+    )
+    return [first, second, third]

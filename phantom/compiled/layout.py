@@ -1,0 +1,59 @@
+"""What a kernel reads: one flat, immutable bundle of arrays a scene."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+UNION, INTERSECTION, DIFFERENCE, OVERLAP, REPLACE = range(5)
+"""Operators as kernels know them."""
+
+
+class Scene(NamedTuple):
+    """L leaves, S segments of generalized cylinders, a binary tree of operators.
+
+    Every leaf has its own origin (``leaf_center``), about which its planes, form and segments are
+    given, so that coordinates stay small however far away the solid is.
+    """
+
+    leaf_center: Floats  # (L, 3) mm
+    leaf_radius: Floats  # (L,) mm, of a sphere about the centre that holds the leaf
+    leaf_box: Floats  # (L, 2, 3) mm, about the world's origin
+    leaf_material: Ints  # (L,) channel, -1 where it never surfaces
+    leaf_form: Ints  # (L,) row of forms, or -1
+    leaf_table: Ints  # (L,) contour table, -1 for circles and for quadrics
+    first_plane: Ints  # (L + 1,) rows of planes
+    planes: Floats  # (P, 4) cuts n.x <= h
+    forms: Floats  # (Q, 10) A00 A11 A22 A01 A02 A12 b0 b1 b2 c
+    first_segment: Ints  # (L + 1,) rows of the segment arrays
+    knots: Floats  # (S + L, 4) section planes; leaf i's start at first_segment[i] + i
+    origins: Floats  # (S, 3)
+    polynomials: Floats  # (S, 12, 7)
+    axes: Floats  # (S, 3, 3)
+    boxes: Floats  # (S, 3, 2)
+    hessians: Floats  # (S, 6, 2)
+    first_cell: Ints  # (tables + 1,)
+    edges: Floats  # cells + 1 numbers a table
+    cells: Floats  # (C, 6)
+    first_bucket: Ints  # (tables + 1,)
+    buckets: Ints  # the cell in which each bucket of the pseudo-angle begins
+    blends: Floats  # (tables, 2) blend radius squared, mean of q
+    parent: Ints  # (nodes,) -1 at the root; nodes 0 .. L - 1 are the leaves
+    operator: Ints  # (nodes,) of inner nodes
+    left: Ints  # (nodes,)
+    right: Ints  # (nodes,)
+
+
+def frozen(scene: Scene) -> Scene:
+    """Return the scene with every array contiguous and read-only."""
+    arrays = []
+    for array in scene:
+        array = np.ascontiguousarray(array)
+        array.setflags(write=False)
+        arrays.append(array)
+    return Scene(*arrays)

@@ -1,0 +1,169 @@
+"""Closed plane curves as smooth pieces with their first two derivatives.
+
+An outline runs anticlockwise about the origin of its own *unit* coordinates; ``place`` maps unit
+coordinates to the contour plane, ``p = matrix @ unit + center``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+
+class Outline(Protocol):
+    """A closed curve over ``[breaks[0], breaks[-1]]``, smooth between breaks."""
+
+    @property
+    def breaks(self) -> Floats:
+        """Parameters v where a derivative may jump, both ends included."""
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Return ``(3, n, 2)``: position, first and second derivative by v."""
+
+
+@dataclass(frozen=True)
+class SplineOutline:
+    """A periodic piecewise cubic in the plane."""
+
+    spline: PPoly
+
+    @property
+    def breaks(self) -> Floats:
+        """The spline's knots."""
+        return np.asarray(self.spline.x, dtype=np.float64)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Evaluate the named cubics."""
+        c = self.spline.c[:, piece]
+        s = (v - self.breaks[piece])[:, None]
+        return np.stack(
+            [
+                ((c[0] * s + c[1]) * s + c[2]) * s + c[3],
+                (3 * c[0] * s + 2 * c[1]) * s + c[2],
+                6 * c[0] * s + 2 * c[1],
+            ]
+        )
+
+
+@dataclass(frozen=True)
+class PolarOutline:
+    """r(theta) as a periodic piecewise cubic; v is theta in radians."""
+
+    radius: PPoly
+
+    @property
+    def breaks(self) -> Floats:
+        """The knots of r."""
+        return np.asarray(self.radius.x, dtype=np.float64)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Turn r and its derivatives into those of the point."""
+        c = self.radius.c[:, piece]
+        s = v - self.breaks[piece]
+        r = ((c[0] * s + c[1]) * s + c[2]) * s + c[3]
+        r1 = (3 * c[0] * s + 2 * c[1]) * s + c[2]
+        r2 = 6 * c[0] * s + 2 * c[1]
+        out = np.stack([np.cos(v), np.sin(v)], axis=-1)
+        across = np.stack([-np.sin(v), np.cos(v)], axis=-1)
+        return np.stack(
+            [
+                r[:, None] * out,
+                r1[:, None] * out + r[:, None] * across,
+                (r2 - r)[:, None] * out + 2 * r1[:, None] * across,
+            ]
+        )
+
+
+@dataclass(frozen=True)
+class SuperellipseOutline:
+    """``|x|^n + |y|^n = 1`` in eight pieces; v counts octants, within one it is minor/major."""
+
+    exponent: float
+
+    @property
+    def breaks(self) -> Floats:
+        """The ends of the octants."""
+        return np.arange(9.0)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Solve the equation along the ray of slope t; odd octants run from t = 1 to 0."""
+        n = self.exponent
+        odd = piece % 2 == 1
+        t = np.clip(np.where(odd, piece + 1 - v, v - piece), 0.0, 1.0)
+        sign = np.where(odd, -1.0, 1.0)
+        base = 1 + t**n
+        x = base ** (-1 / n)
+        x1 = -(t ** (n - 1)) * base ** (-1 / n - 1)
+        x2 = (n + 1) * t ** (2 * n - 2) * base ** (-1 / n - 2)
+        x2 -= (n - 1) * t ** (n - 2) * base ** (-1 / n - 1)
+        y, y1, y2 = t * x, x + t * x1, 2 * x1 + t * x2
+        major = np.stack([x, sign * x1, x2])
+        minor = np.stack([y, sign * y1, y2])
+        # Octant 2q starts at the q-th half-axis; octant 2q + 1 ends at the next one.
+        quarter = np.where(odd, (piece + 1) // 2, piece // 2) % 4
+        minor = np.where(odd, -minor, minor)
+        turns = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+        c, s = turns[quarter].T
+        return np.stack([c * major - s * minor, s * major + c * minor], axis=-1)
+
+
+@dataclass(frozen=True)
+class RoundedOutline:
+    """Straight edges joined by tangent arcs; edge k is piece 2k, the arc after it 2k + 1."""
+
+    starts: Floats  # (corners, 2) where each edge begins
+    ends: Floats  # (corners, 2) where it ends and the arc begins
+    centers: Floats  # (corners, 2) of the arcs
+    turns_rad: Floats  # (corners,) signed turn of the arcs, positive anticlockwise
+
+    @property
+    def breaks(self) -> Floats:
+        """One unit of v per edge and per arc."""
+        return np.arange(2.0 * len(self.starts) + 1)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Evaluate edges linearly and arcs by turning their first radius."""
+        k, s = piece // 2, (v - piece)[:, None]
+        edge = self.ends[k] - self.starts[k]
+        straight = np.stack([self.starts[k] + s * edge, edge, np.zeros_like(edge)])
+        radius = self.ends[k] - self.centers[k]
+        across = np.stack([-radius[:, 1], radius[:, 0]], axis=-1)
+        turn = self.turns_rad[k][:, None]
+        cos, sin = np.cos(turn * s), np.sin(turn * s)
+        out = cos * radius + sin * across
+        along = cos * across - sin * radius
+        curved = np.stack([self.centers[k] + out, turn * along, -(turn**2) * out])
+        return np.where((piece % 2 == 1)[:, None], curved, straight)
+
+
+@dataclass(frozen=True)
+class PlacedOutline:
+    """An outline given in the contour plane, moved to unit coordinates about a centre."""
+
+    inner: Outline
+    center: Floats
+    scale: float
+    reverse: bool
+
+    @property
+    def breaks(self) -> Floats:
+        """The inner breaks, run backwards where the orientation was."""
+        breaks = self.inner.breaks
+        return np.asarray(-breaks[::-1] if self.reverse else breaks)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Shift and scale the inner curve."""
+        if self.reverse:
+            values = self.inner.derivatives(-v, len(self.inner.breaks) - 2 - piece)
+            values[1] *= -1
+        else:
+            values = self.inner.derivatives(v, piece)
+        values[0] -= self.center
+        return np.asarray(values / self.scale)

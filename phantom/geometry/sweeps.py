@@ -1,0 +1,115 @@
+"""Linear sweeps: how the section turns, stretches, shears and shifts along the axis.
+
+The column map of the document, ``R H D [x, y] + offset``; its inverse takes a point of the
+section plane back to the initial contour (paper section III.A).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline, PPoly
+
+from phantom import document as doc
+from phantom.geometry import tolerances
+from phantom.geometry.refusal import RefusalError
+
+Floats = NDArray[np.float64]
+Profile = float | PPoly
+
+
+def profile(value: doc.Profile) -> Profile:
+    """Turn a profile of a document into a number or a C2 cubic through its knots."""
+    if isinstance(value, doc.KnotProfile):
+        knots = np.array(value.knots, dtype=np.float64)
+        return CubicSpline(knots[:, 0], knots[:, 1], bc_type="not-a-knot")
+    return float(value)
+
+
+def _at(values: Profile, u: Floats) -> Floats:
+    if isinstance(values, float):
+        return np.full(u.shape, values)
+    return np.asarray(values(u), dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class LinearSweep:
+    """A linear sweep as six profiles of u."""
+
+    scale: tuple[Profile, Profile]
+    rotate_deg: Profile
+    shear: Profile
+    offset: tuple[Profile, Profile]
+
+    @property
+    def breaks(self) -> Floats:
+        """Parameters where the third derivative of a profile may jump, 0 and 1 included."""
+        profiles = (*self.scale, self.rotate_deg, self.shear, *self.offset)
+        knots = [p.x for p in profiles if not isinstance(p, float)]
+        return np.unique(np.concatenate([[0.0, 1.0], *knots]))
+
+    @property
+    def is_round(self) -> bool:
+        """Whether circles stay circles about the axis, so that turning them changes nothing."""
+        return (
+            self.scale[0] is self.scale[1]
+            and self.shear == 0.0
+            and self.offset[0] == 0.0
+            and self.offset[1] == 0.0
+        )
+
+    def maps(self, u: Floats) -> tuple[Floats, Floats]:
+        """Return the column matrices ``(n, 2, 2)`` and the offsets ``(n, 2)`` in mm at u."""
+        sx, sy = _at(self.scale[0], u), _at(self.scale[1], u)
+        angle = np.radians(_at(self.rotate_deg, u))
+        shear = _at(self.shear, u)
+        cos, sin = np.cos(angle), np.sin(angle)
+        # H D = [[sx, shear * sy], [0, sy]], then the turn R from n toward b.
+        hd_xy = shear * sy
+        matrix = np.empty((*u.shape, 2, 2))
+        matrix[..., 0, 0] = cos * sx
+        matrix[..., 1, 0] = sin * sx
+        matrix[..., 0, 1] = cos * hd_xy - sin * sy
+        matrix[..., 1, 1] = sin * hd_xy + cos * sy
+        return matrix, np.stack([_at(self.offset[0], u), _at(self.offset[1], u)], axis=-1)
+
+
+def linear_sweep(sweep: doc.LinearSweep) -> LinearSweep:
+    """Turn a linear sweep of a document into profiles, or refuse it.
+
+    Raises
+    ------
+    RefusalError
+        At ``/sweep``, where the map is singular or nearly so, with u and the figure.
+    """
+    if isinstance(sweep.scale, tuple):
+        scale = (profile(sweep.scale[0]), profile(sweep.scale[1]))
+    else:
+        both = profile(sweep.scale)
+        scale = (both, both)
+    result = LinearSweep(
+        scale,
+        profile(sweep.rotate_deg),
+        profile(sweep.shear),
+        (profile(sweep.offset[0]), profile(sweep.offset[1])),
+    )
+    breaks = result.breaks
+    u = np.concatenate([np.linspace(a, b, 65) for a, b in zip(breaks, breaks[1:], strict=False)])
+    matrix, _ = result.maps(u)
+    stretches = np.linalg.svd(matrix, compute_uv=False)
+    ratio = stretches[:, 1] / max(float(stretches[:, 0].max()), 1e-300)
+    # A change of orientation between two samples is a zero in between, however steep.
+    determinant = np.linalg.det(matrix)
+    flips = np.flatnonzero(determinant[:-1] * determinant[1:] < 0)
+    worst = int(flips[0]) if len(flips) else int(np.argmin(ratio))
+    if len(flips) or ratio[worst] < tolerances.SINGULAR_SWEEP:
+        figure = 0.0 if len(flips) else ratio[worst]
+        raise RefusalError(
+            "/sweep",
+            "singular_sweep",
+            f"the sweep is singular near u = {u[worst]:.6g}: its smallest stretch is {figure:.3g} "
+            f"of the largest along the axis; expected at least {tolerances.SINGULAR_SWEEP:g}",
+        )
+    return result

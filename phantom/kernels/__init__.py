@@ -1,0 +1,1 @@
+"""Compiled loops on scalars and flat arrays; they never raise, and release the lock."""

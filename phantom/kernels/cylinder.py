@@ -1,0 +1,319 @@
+"""A ray against one segment of a generalized cylinder: every chord, none lost.
+
+Along the ray, G(w) = h(phi(w)) is negative inside. Its second derivative lies in [low, high] over
+the whole segment (:mod:`phantom.compiled.hessians`), and a piece of the ray is discarded, accepted
+or split by what that allows (engine notes in ``docs/methods/engine.md``).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from phantom.kernels.compiling import kernel
+from phantom.kernels.section import circle, star
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+STACK = 256
+"""Pieces of a ray that may wait; halving to 1e-3 mm needs far fewer."""
+
+ROW = 8
+"""Numbers of a waiting piece: w, G, slope and tau at its two ends."""
+
+
+@kernel
+def contract(
+    polynomials: Floats,
+    k: int,
+    x: float,
+    y: float,
+    z: float,
+    dx: float,
+    dy: float,
+    dz: float,
+    work: Floats,
+) -> None:
+    """Write F = A + w B and phi_i = P_i + w D_i as six polynomials of tau into ``work``."""
+    for j in range(3):
+        row = 4 * j
+        for i in range(7):
+            a, b, c = polynomials[k, row, i], polynomials[k, row + 1, i], polynomials[k, row + 2, i]
+            work[2 * j, i] = a * x + b * y + c * z - polynomials[k, row + 3, i]
+            work[2 * j + 1, i] = a * dx + b * dy + c * dz
+
+
+@kernel
+def solve_tau(work: Floats, w: float, tau: float) -> float:
+    """Find the one tau in [-1, 1] with F = 0; F falls from one end to the other."""
+    low, high = -1.0, 1.0
+    for _ in range(60):
+        f = work[0, 6] + w * work[1, 6]
+        slope = 0.0
+        for i in range(5, -1, -1):
+            slope = slope * tau + f
+            f = f * tau + work[0, i] + w * work[1, i]
+        if f > 0:
+            low = tau
+        else:
+            high = tau
+        step = -f / slope
+        following = tau + step
+        if not (following >= low and following <= high):
+            # Rounding at an end plane may put the root a hair outside: the end is the answer.
+            following = 0.5 * (low + high) if abs(step) > 1e-9 else min(max(following, low), high)
+        moved = abs(following - tau)
+        tau = following
+        if moved < 1e-9:
+            break
+    return tau
+
+
+@kernel
+def evaluate(
+    work: Floats,
+    w: float,
+    guess: float,
+    table: int,
+    first_cell: Ints,
+    edges: Floats,
+    cells: Floats,
+    first_bucket: Ints,
+    buckets: Ints,
+    blends: Floats,
+) -> tuple[float, float, float]:
+    """Return G, dG/dw and tau at w."""
+    tau = solve_tau(work, w, guess)
+    b = work[1, 6]
+    f1 = 0.0
+    f = work[0, 6] + w * b
+    x, y = work[2, 6] + w * work[3, 6], work[4, 6] + w * work[5, 6]
+    x1 = y1 = 0.0
+    xd, yd = work[3, 6], work[5, 6]
+    for i in range(5, -1, -1):
+        f1 = f1 * tau + f
+        f = f * tau + work[0, i] + w * work[1, i]
+        b = b * tau + work[1, i]
+        x1 = x1 * tau + x
+        y1 = y1 * tau + y
+        x = x * tau + work[2, i] + w * work[3, i]
+        y = y * tau + work[4, i] + w * work[5, i]
+        xd = xd * tau + work[3, i]
+        yd = yd * tau + work[5, i]
+    turn = -b / f1
+    xd += x1 * turn
+    yd += y1 * turn
+    if table < 0:
+        h, hx, hy = circle(x, y)
+    else:
+        h, hx, hy = star(x, y, table, first_cell, edges, cells, first_bucket, buckets, blends)
+    return h, hx * xd + hy * yd, tau
+
+
+@kernel
+def stays_positive(
+    g0: float, s0: float, g1: float, s1: float, span: float, low: float, high: float
+) -> bool:
+    """Say whether G > 0 throughout, given its ends and bounds of its second derivative."""
+    if low >= 0.0 and (s0 >= 0.0 or s1 <= 0.0):
+        return True
+    if low > 0.0:
+        if max(g0 - s0 * s0 / (2.0 * low), g1 - s1 * s1 / (2.0 * low)) > 0.0:
+            return True
+    else:
+        # Two concave parabolas lie below G, one from each end: together they must keep above 0.
+        left = reach(g0, s0, low)
+        right = reach(g1, -s1, low)
+        if left + right > span:
+            return True
+    # G is above its chord by at least -high/2 s (span - s).
+    if high <= 0.0:
+        return True
+    bow = 0.5 * high * span * span
+    # The smallest of (1-t) g0 + t g1 - bow t (1-t) over t in [0, 1].
+    t = 0.5 * (1.0 - (g1 - g0) / bow)
+    if t <= 0.0 or t >= 1.0:
+        return True
+    return (1.0 - t) * g0 + t * g1 - bow * t * (1.0 - t) > 0.0
+
+
+@kernel
+def reach(g: float, slope: float, low: float) -> float:
+    """How far a parabola of second derivative ``low <= 0`` stays positive."""
+    if low == 0.0:
+        return np.inf if slope >= 0.0 else -g / slope
+    root = np.sqrt(slope * slope - 2.0 * low * g)
+    # The larger root of g + slope s + low s^2 / 2, without cancellation.
+    if slope >= 0.0:
+        return -(slope + root) / low
+    return 2.0 * g / (root - slope)
+
+
+@kernel
+def crosses_once(g0: float, s0: float, s1: float, span: float, low: float, high: float) -> bool:
+    """Say whether G, of opposite signs at its ends, has exactly one root in between."""
+    if low >= 0.0 or high <= 0.0:
+        return True
+    # The slope lies between two lines from each end; where they meet is its extreme.
+    s = min(max((s0 - s1 + high * span) / (high - low), 0.0), span)
+    least = max(s0 + low * s, s1 - high * (span - s))
+    if least > 0.0:
+        return True
+    s = min(max((s1 - s0 - low * span) / (high - low), 0.0), span)
+    most = min(s0 + high * s, s1 - low * (span - s))
+    return most < 0.0
+
+
+@kernel
+def polish(
+    work: Floats,
+    a: float,
+    ga: float,
+    b: float,
+    gb: float,
+    tau: float,
+    table: int,
+    first_cell: Ints,
+    edges: Floats,
+    cells: Floats,
+    first_bucket: Ints,
+    buckets: Ints,
+    blends: Floats,
+    counter: Ints,
+) -> float:
+    """Find the root of G between a and b, of opposite signs, by safeguarded Newton."""
+    falling = ga > 0.0
+    w = a + (b - a) * ga / (ga - gb)
+    for _ in range(100):
+        g, slope, tau = evaluate(
+            work, w, tau, table, first_cell, edges, cells, first_bucket, buckets, blends
+        )
+        counter[0] += 1
+        if g == 0.0:
+            return w
+        if (g > 0.0) == falling:
+            a = w
+        else:
+            b = w
+        following = w - g / slope
+        if not (following > a and following < b):
+            following = 0.5 * (a + b)
+        moved = abs(following - w)
+        w = following
+        # A step this small leaves an error of its square: far below the rounding of w.
+        if moved < 1e-9 or b - a < 1e-12:
+            break
+    return w
+
+
+@kernel
+def chords(
+    work: Floats,
+    stack: Floats,
+    start: float,
+    end: float,
+    low: float,
+    high: float,
+    shortest: float,
+    table: int,
+    first_cell: Ints,
+    edges: Floats,
+    cells: Floats,
+    first_bucket: Ints,
+    buckets: Ints,
+    blends: Floats,
+    found: Floats,
+    room: int,
+    counter: Ints,
+) -> int:
+    """Write the chords of one segment within [start, end] into ``found``; return how many.
+
+    A negative answer means there was no room for all of them.
+    """
+    g0, s0, t0 = evaluate(
+        work, start, 0.0, table, first_cell, edges, cells, first_bucket, buckets, blends
+    )
+    g1, s1, t1 = evaluate(
+        work, end, t0, table, first_cell, edges, cells, first_bucket, buckets, blends
+    )
+    counter[0] += 2
+    count = 0
+    inside = g0 < 0.0
+    entry = start
+    stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = start, g0, s0, t0
+    stack[0, 4], stack[0, 5], stack[0, 6], stack[0, 7] = end, g1, s1, t1
+    waiting = 1
+    while waiting > 0:
+        waiting -= 1
+        a, g0, s0, t0 = stack[waiting, 0], stack[waiting, 1], stack[waiting, 2], stack[waiting, 3]
+        b, g1, s1, t1 = stack[waiting, 4], stack[waiting, 5], stack[waiting, 6], stack[waiting, 7]
+        span = b - a
+        opposite = (g0 < 0.0) != (g1 < 0.0)
+        short = span < shortest
+        if opposite:
+            if short or crosses_once(g0, s0, s1, span, low, high):
+                w = polish(
+                    work,
+                    a,
+                    g0,
+                    b,
+                    g1,
+                    t0,
+                    table,
+                    first_cell,
+                    edges,
+                    cells,
+                    first_bucket,
+                    buckets,
+                    blends,
+                    counter,
+                )
+                if inside:
+                    if count >= room:
+                        return -1
+                    found[count, 0], found[count, 1] = entry, w
+                    count += 1
+                else:
+                    entry = w
+                inside = not inside
+                continue
+        elif short:
+            continue
+        elif g0 >= 0.0:
+            if stays_positive(g0, s0, g1, s1, span, low, high):
+                continue
+        elif stays_positive(-g0, -s0, -g1, -s1, span, -high, -low):
+            continue
+        # Split where the slope's secant vanishes: near the extreme that is in doubt.
+        part = 0.5
+        if not opposite and s0 != s1:
+            part = min(max(s0 / (s0 - s1), 0.1), 0.9)
+        m = a + part * span
+        gm, sm, tm = evaluate(
+            work,
+            m,
+            t0 + part * (t1 - t0),
+            table,
+            first_cell,
+            edges,
+            cells,
+            first_bucket,
+            buckets,
+            blends,
+        )
+        counter[0] += 1
+        if waiting + 2 > STACK:
+            return -1
+        stack[waiting, 0], stack[waiting, 1], stack[waiting, 2], stack[waiting, 3] = m, gm, sm, tm
+        stack[waiting, 4], stack[waiting, 5], stack[waiting, 6], stack[waiting, 7] = b, g1, s1, t1
+        waiting += 1
+        stack[waiting, 0], stack[waiting, 1], stack[waiting, 2], stack[waiting, 3] = a, g0, s0, t0
+        stack[waiting, 4], stack[waiting, 5], stack[waiting, 6], stack[waiting, 7] = m, gm, sm, tm
+        waiting += 1
+    if inside:
+        if count >= room:
+            return -1
+        found[count, 0], found[count, 1] = entry, end
+        count += 1
+    return count

@@ -1,0 +1,17 @@
+"""Rays through a phantom: checks, threads and the kernels."""
+
+from phantom.tracing.measure import Measure, measure
+from phantom.tracing.pool import default_workers, warm
+from phantom.tracing.raster import raster
+from phantom.tracing.rays import Intervals, intervals, path_lengths
+
+__all__ = [
+    "Intervals",
+    "Measure",
+    "default_workers",
+    "intervals",
+    "measure",
+    "path_lengths",
+    "raster",
+    "warm",
+]

@@ -1,0 +1,107 @@
+"""Bands of work on the library's own threads; kernels release the lock while they run."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+
+from phantom.errors import CancelledError
+
+
+def default_workers() -> int:
+    """Return the number of processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def run_bands(
+    work: Callable[[int, int], None],
+    bands: Sequence[tuple[int, int]],
+    *,
+    workers: int | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
+    """Run ``work(start, end)`` for every band; what each writes must not depend on the order.
+
+    Parameters
+    ----------
+    work
+        Does one band; it runs on several threads at once.
+    bands
+        Half-open ranges.
+    workers
+        Threads, by default one a processor.
+    cancelled
+        Asked between bands; once it says yes nothing new is started.
+    progress
+        Told after every band how many of how many units are done.
+
+    Raises
+    ------
+    CancelledError
+        Where ``cancelled`` said yes before the last band was started.
+    """
+    total, done = sum(end - start for start, end in bands), 0
+    count = max(1, min(workers or default_workers(), len(bands)))
+    pending: dict[Future[None], int] = {}
+    with ThreadPoolExecutor(count, thread_name_prefix="phantom") as pool:
+        left = iter(bands)
+        exhausted = False
+        try:
+            while pending or not exhausted:
+                # Twice as many as threads wait, so that none idles while this one looks around.
+                while not exhausted and len(pending) < 2 * count:
+                    if cancelled is not None and cancelled():
+                        raise CancelledError("the trace was cancelled")
+                    band = next(left, None)
+                    if band is None:
+                        exhausted = True
+                    else:
+                        pending[pool.submit(work, *band)] = band[1] - band[0]
+                finished, _ = wait(pending, timeout=0.1, return_when=FIRST_COMPLETED)
+                if cancelled is not None and not finished and cancelled():
+                    raise CancelledError("the trace was cancelled")
+                for future in finished:
+                    done += pending.pop(future)
+                    future.result()
+                if progress is not None and finished:
+                    progress(done, total)
+        except BaseException:
+            for future in pending:
+                future.cancel()
+            raise
+
+
+def cut_bands(total: int, size: int) -> list[tuple[int, int]]:
+    """Cut ``range(total)`` into half-open bands of at most ``size``."""
+    return [(start, min(start + size, total)) for start in range(0, total, size)]
+
+
+def warm() -> None:
+    """Compile every kernel, or load it from the cache: one small trace of each kind."""
+    import numpy as np
+
+    from phantom.scene import load
+    from phantom.tracing.raster import raster
+    from phantom.tracing.rays import intervals
+
+    phantom = load(
+        {
+            "format": "phantom/1",
+            "name": "warm",
+            "materials": {"m": {"attenuation_per_mm": 1.0}},
+            "solid": {"type": "sphere", "center": [0, 0, 0], "radius": 1.0, "material": "m"},
+        }
+    )
+    raster(
+        phantom,
+        source=np.array([0.0, 0.0, -9.0]),
+        direction=None,
+        first_pixel=np.array([0.0, 0.0, 9.0]),
+        column_step=np.array([1.0, 0.0, 0.0]),
+        row_step=np.array([0.0, 1.0, 0.0]),
+        columns=1,
+        rows=1,
+    )
+    intervals(phantom, np.array([[0.0, 0.0, -9.0]]), np.array([[0.0, 0.0, 1.0]]))
