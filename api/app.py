@@ -39,7 +39,6 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         description="Exact X-ray images of phantoms. Lengths are millimetres, energies keV.",
         docs_url=None,
         redoc_url=None,
-        root_path=settings.root_path,
         lifespan=_warm,
     )
     service = Service.of(settings)

@@ -9,4 +9,4 @@ def ready() -> None:
     """Compile the kernels where that has not been done on this machine yet, and say so."""
     from phantom.tracing import warm
 
-    warm(say)
+    warm()

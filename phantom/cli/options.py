@@ -37,9 +37,9 @@ def subject(target: str, settings: list[str] | None) -> dict[str, object]:
 
 def read_file(name: str) -> object:
     """Return the tree in a document's file, JSON or YAML."""
-    from phantom.document.reading import _read_file
+    from phantom.document.reading import read_tree
 
-    return _read_file(Path(name))
+    return read_tree(Path(name))
 
 
 def _pair(text: str) -> tuple[str, str]:

@@ -34,11 +34,18 @@ def serve(
         ready()
         application = import_module("api.app").create_app(settings)
         say(f"documentation at http://{_shown(host)}:{port}/docs")
-        uvicorn.run(application, host=host, port=port, log_level="warning", server_header=False)
+        uvicorn.run(
+            application,
+            host=host,
+            port=port,
+            root_path=settings.root_path,
+            log_level="warning",
+            server_header=False,
+        )
 
 
 def is_loopback(host: str) -> bool:
-    """Tell whether only this machine can reach the address; no name but localhost is taken for one."""
+    """Tell whether only this machine can reach the address; of names only localhost is sure."""
     if host == "localhost":
         return True
     try:

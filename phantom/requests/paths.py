@@ -93,7 +93,7 @@ def _rays(data: bytes) -> FloatArray:
             2: np.lib.format.read_array_header_2_0,
         }[major]
         shape, fortran_order, dtype = read_header(stream)
-    except (ValueError, KeyError) as error:
+    except Exception as error:  # whatever Python's tokenizer makes of a header's text
         _refuse_rays(f"found a header that cannot be read; {expected}", error)
     if dtype != np.dtype("<f8") or fortran_order or len(shape) != 3 or shape[1:] != (2, 3):
         order = "Fortran" if fortran_order else "C"

@@ -7,7 +7,7 @@ import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, Literal, TypeVar, cast
 
 import numpy as np
 from pydantic import Field
@@ -144,7 +144,7 @@ def _filled(model: ModelT, **defaults: object) -> ModelT:
     """Return the model with these values where the request left them out, still marked as such."""
     said = {name: getattr(model, name) for name in model.model_fields_set}
     content = {**model.model_dump(), **defaults, **said}
-    return type(model).model_construct(_fields_set=model.model_fields_set, **content)
+    return cast("ModelT", model.model_construct(_fields_set=model.model_fields_set, **content))
 
 
 def _placing(

@@ -55,7 +55,7 @@ class OwnPhantom(Model):
 def _kind(value: Any) -> str | None:
     if isinstance(value, Mapping):
         return "own" if "document" in value else "library"
-    return {OwnPhantom: "own", LibraryPhantom: "library"}.get(type(value))
+    return {"OwnPhantom": "own", "LibraryPhantom": "library"}.get(type(value).__name__)
 
 
 Subject = Annotated[

@@ -49,7 +49,7 @@ def _kind(value: Any) -> str | None:
     if isinstance(value, Mapping):
         placed = {"source", "direction", "detector"} & set(value)
         return "placed" if placed and "preset" not in value else "preset"
-    return {PlacedView: "placed", PresetView: "preset"}.get(type(value))
+    return {"PlacedView": "placed", "PresetView": "preset"}.get(type(value).__name__)
 
 
 Viewpoint = Annotated[
