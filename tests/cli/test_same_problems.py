@@ -1,0 +1,114 @@
+"""Bad input gets the same list of problems on the command line and over HTTP."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from api.app import create_app
+from api.settings import Settings
+
+SPHERE = '{"type": "sphere", "center": [0, 0, 0], "radius": 5, "material": "a"}'
+
+
+def document(solid: str = SPHERE, materials: str = '{"a": {"attenuation_per_mm": 1}}') -> str:
+    return f'{{"format": "phantom/1", "materials": {materials}, "solid": {solid}}}'
+
+
+DOCUMENTS = {
+    "not JSON": "{",
+    "not an object": "[]",
+    "empty": "{}",
+    "NaN": document(SPHERE.replace("5", "NaN")),
+    "1e999 and an unknown field": document(SPHERE.replace("5", "1e999, \"colour\": 1")),
+    "5,000 digits": document(SPHERE.replace("5", "9" * 5000)),
+    "a lone surrogate": document(SPHERE.replace('"a"', '"\\ud800"')),
+    "a lone surrogate as a key": document(materials='{"\\udc00": {"attenuation_per_mm": 1}}'),
+    "depth 1,000": document('{"type": "transformed", "solid": ' * 1000 + "0" + "}" * 1000),
+    "depth 65": document(
+        '{"type": "transformed", "translate": [1, 0, 0], "solid": ' * 65 + SPHERE + "}" * 65
+    ),
+    "a circle of instances": (
+        '{"format": "phantom/1", "solid": {"type": "instance", "of": "x"},'
+        ' "definitions": {"x": {"type": "instance", "of": "x"}}}'
+    ),
+    "an unbounded solid": document(
+        '{"type": "quadric", "coefficients": [1, 1, 0, 0, 0, 0, 0, 0, 0, -1], "material": "a"}'
+    ),
+    "several at once": document('{"type": "sphere", "radius": -1, "material": "b"}'),
+    "a repeated key": document()[:-1] + ', "name": "x", "name": "y"}',
+}  # fmt: skip
+
+WORDS: dict[str, dict[str, str]] = {
+    "no such view": {"view": "sideways"},
+    "no pixels": {"columns": "0", "rows": "-3"},
+    "too many pixels": {"columns": "16384", "rows": "16384"},
+    "half a pixel": {"columns": "2.5"},
+    "NaN": {"energy_kev": "NaN", "pitch_mm": "nan"},
+    "1e999": {"source_detector_mm": "1e999"},
+    "5,000 digits": {"columns": "9" * 5000},
+    "an energy that is not tabulated": {"energy_kev": "0.1"},
+    "distances that contradict": {"source_object_mm": "500", "object_detector_mm": "500"},
+    "an angle without effect": {"angle_deg": "30"},
+    "words for numbers": {"bits": "many", "mode": "7"},
+    "JSON that is none": {"view": "{"},
+    "an explicit view with nothing in it": {"view": '{"source": [0, 0]}'},
+    "a source in its detector": {
+        "view": '{"source": [0, 0, 0], "detector":'
+        ' {"center": [0, 0, 0], "right": [1, 0, 0], "down": [0, 0, -1]}}'
+    },
+    "several parts at once": {"view": "x", "bits": "9", "columns": "0", "energy_kev": "-1"},
+}
+
+
+@pytest.fixture(scope="module")
+def client() -> TestClient:
+    return TestClient(create_app(Settings()), raise_server_exceptions=False)
+
+
+def told(problems: list[dict[str, str]]) -> list[tuple[str, str, str]]:
+    return [(p["path"], p["kind"], p["message"]) for p in problems]
+
+
+@pytest.mark.parametrize("text", DOCUMENTS.values(), ids=DOCUMENTS.keys())
+def test_of_a_document(run, client, written, text):
+    there = client.post(
+        "/v1/documents/validate", content=text, headers={"Content-Type": "application/json"}
+    )
+    here = run("validate", written(text), "--json")
+    assert (there.status_code, here.exit_code) == (422, 2)
+    assert told(json.loads(here.stderr)["problems"]) == told(there.json()["problems"])
+
+
+@pytest.mark.parametrize("text", DOCUMENTS.values(), ids=DOCUMENTS.keys())
+def test_of_a_document_to_be_xrayed(run, client, written, text):
+    if text == "{":
+        pytest.skip("the body as a whole would be no JSON")
+    body = f'{{"phantom": {{"document": {text}}}, "detector": {{"columns": 0}}}}'
+    there = client.post(
+        "/v1/radiographs", content=body, headers={"Content-Type": "application/json"}
+    )
+    here = run("radiograph", written(text), "--columns", "0", "--json")
+    assert (there.status_code, here.exit_code) == (422, 2)
+    assert told(json.loads(here.stderr)["problems"]) == told(there.json()["problems"])
+
+
+@pytest.mark.parametrize("words", WORDS.values(), ids=WORDS.keys())
+def test_of_words(run, client, words: dict[str, Any]):
+    options = [part for k, v in words.items() for part in (f"--{k.replace('_', '-')}={v}",)]
+    there = client.get("/v1/radiographs/sphere", params=words)
+    here = run("radiograph", "sphere", *options, "--json", "-o", "never.png")
+    assert (there.status_code, here.exit_code) == (422, 2)
+    problems = told(json.loads(here.stderr)["problems"])
+    assert problems
+    assert problems == told(there.json()["problems"])
+
+
+def test_of_parameters(run, client):
+    there = client.get("/v1/radiographs/sphere?parameters.radius_mm=-1&parameters.colour=red")
+    here = run("radiograph", "sphere", "--set", "radius_mm=-1", "--set", "colour=red", "--json")
+    assert told(json.loads(here.stderr)["problems"]) == told(there.json()["problems"])
+    assert len(there.json()["problems"]) == 2
