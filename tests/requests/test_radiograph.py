@@ -1,0 +1,153 @@
+"""From a request to a plan: defaults, limits, and what makes two requests the same."""
+
+from __future__ import annotations
+
+import copy
+
+import pytest
+
+from phantom import library
+from phantom.errors import InvalidInputError
+from phantom.requests.limits import Limits
+from phantom.requests.radiograph import plan
+
+SPHERE = {"phantom": {"name": "sphere"}}
+DOCUMENT = {
+    "format": "phantom/1",
+    "materials": {"a": {"attenuation_per_mm": 1}},
+    "solid": {"type": "sphere", "center": [5, 6, 7], "radius": 4, "material": "a"},
+}
+
+
+def paths(refusal) -> list[str]:
+    return [p.path for p in refusal.value.problems]
+
+
+def test_everything_but_the_phantom_has_a_default():
+    planned = plan(SPHERE)
+    technique = library.entry("sphere").technique
+    assert planned.beam.energy_kev == technique.energy_kev
+    assert planned.presentation.polarity == technique.polarity
+    assert planned.chosen["view"] == "ap"
+    assert planned.chosen["source_detector_mm"] == technique.source_detector_mm
+    with pytest.raises(InvalidInputError) as refusal:
+        plan({})
+    assert paths(refusal) == ["/phantom"]
+
+
+def test_a_detector_is_square_unless_its_rows_are_given():
+    assert plan(SPHERE | {"detector": {"columns": 7}}).view.detector.rows == 7
+    assert plan(SPHERE | {"detector": {"columns": 7, "rows": 3}}).view.detector.rows == 3
+
+
+def test_defaults_written_out_make_the_same_request():
+    planned = plan(SPHERE)
+    written = {
+        "phantom": {"name": "sphere", "parameters": {"radius_mm": 25}},
+        "view": {"preset": "ap", "source_detector_mm": 1150, "object_detector_mm": 100},
+        "detector": {"columns": 1024, "rows": 1024},
+        "beam": {"energy_kev": 60},
+        "quantity": "signal",
+        "presentation": {"mode": "stretch", "polarity": "bones_white", "bits": 8},
+    }
+    assert plan(written).fingerprint() == planned.fingerprint()
+
+
+def test_any_difference_makes_another_request():
+    requests = [
+        SPHERE,
+        SPHERE | {"view": {"preset": "pa"}},
+        SPHERE | {"beam": {"energy_kev": 61}},
+        SPHERE | {"quantity": "transmission"},
+        SPHERE | {"presentation": {"bits": 16}},
+        SPHERE | {"detector": {"columns": 1023}},
+        {"phantom": {"name": "sphere", "parameters": {"radius_mm": 25.000001}}},
+        {"phantom": {"document": DOCUMENT}},
+    ]
+    assert len({plan(request).fingerprint() for request in requests}) == len(requests)
+
+
+def test_a_request_is_left_as_it_was():
+    request = {"phantom": {"document": DOCUMENT}, "detector": {"columns": 4}}
+    before = copy.deepcopy(request)
+    plan(request)
+    assert request == before
+
+
+def test_problems_of_every_part_are_told_at_once():
+    request = {
+        "phantom": {"document": {**DOCUMENT, "extra": 1, "materials": {"a": {}}}},
+        "view": {"preset": "ap", "source_detector_mm": -1},
+        "detector": {"columns": 0},
+        "beam": {"energy_kev": float("nan")},
+        "presentation": {"bits": 12},
+        "extra": 1,
+    }
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(request)
+    assert paths(refusal) == [
+        "/beam/energy_kev",
+        "/detector/columns",
+        "/extra",
+        "/phantom/document/extra",
+        "/phantom/document/materials/a",
+        "/presentation/bits",
+        "/view/source_detector_mm",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("subject", "path"),
+    [
+        ("sphere", "/phantom"),
+        ({}, "/phantom/name"),
+        ({"name": 3}, "/phantom/name"),
+        ({"name": ""}, "/phantom/name"),
+        ({"name": "nobody"}, "/phantom/name"),
+        ({"name": "sphere", "parameters": []}, "/phantom/parameters"),
+        ({"name": "sphere", "parameters": {"name": 1}}, "/phantom/parameters/name"),
+        ({"name": "sphere", "colour": 1}, "/phantom/colour"),
+        ({"document": 3}, "/phantom/document"),
+        ({"document": DOCUMENT, "name": "sphere"}, "/phantom/name"),
+    ],
+)
+def test_a_phantom_that_is_none_is_told_in_its_place(subject, path):
+    with pytest.raises(InvalidInputError) as refusal:
+        plan({"phantom": subject})
+    assert paths(refusal) == [path]
+
+
+POSE = {"center": [0, 200, 0], "right": [1, 0, 0], "down": [0, 0, -1]}
+
+
+@pytest.mark.parametrize(
+    ("view", "path"),
+    [
+        ("ap", "/view"),
+        ({"preset": "ap", "source": [0, 0, 0]}, "/view/source"),
+        ({"source": [0, -500, 0]}, "/view/detector"),
+        ({"detector": POSE}, "/view/source"),
+        ({"source": None, "detector": POSE}, "/view/direction"),
+        ({"source": [0, -500, 0], "direction": [0, 1, 0], "detector": POSE}, "/view/direction"),
+        ({"source": [0, 200, 0], "detector": POSE}, "/view/source"),
+        ({"source": [0, -500, 0], "detector": {**POSE, "down": [1, 0, 0]}}, "/view/detector/down"),
+        ({"source": [0, 0, 0], "detector": POSE}, "/detector/pitch_mm"),
+        ({"source_detector_mm": 50, "object_detector_mm": 60}, "/view/object_detector_mm"),
+        ({"source_detector_mm": 20}, "/view/source_detector_mm"),
+    ],
+)
+def test_a_view_that_is_none_is_told_in_its_place(view, path):
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(SPHERE | {"view": view})
+    assert paths(refusal) == [path]
+
+
+@pytest.mark.parametrize(
+    ("limits", "detector"),
+    [(Limits(pixels=99), {"columns": 10}), (Limits(result_bytes=100 * 5 * 8 - 1), {"columns": 10})],
+)
+def test_the_cost_is_counted_first(limits, detector):
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(SPHERE | {"detector": detector}, limits=limits)
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/detector", "too_large")]
+    assert plan(SPHERE | {"detector": {"columns": 9}}, limits=limits)

@@ -1,0 +1,59 @@
+"""Flat words of a query or a command line, and the request they mean."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from phantom.errors import InvalidInputError
+from phantom.requests.words import WORDS, parameters, request_tree, scalar
+
+
+@given(st.integers(-(10**18), 10**18) | st.floats(allow_nan=False, allow_infinity=False))
+def test_a_number_survives_being_written(number):
+    assert scalar(str(number)) == number
+
+
+@pytest.mark.parametrize("text", ["NaN", "inf", "-Infinity", "1e999", "9" * 5000, "ap", "", "0x1F"])
+def test_what_is_no_finite_number_stays_text(text):
+    assert scalar(text) == text
+
+
+def test_truth_and_json_are_read():
+    assert scalar("true") is True
+    assert scalar("[1, 2.5]") == [1, 2.5]
+    with pytest.raises(InvalidInputError):
+        scalar("{")
+
+
+def test_words_stand_where_the_request_has_them():
+    tree, problems = request_tree(
+        {"name": "sphere"},
+        [("view", "pa"), ("columns", "512"), ("energy_kev", "70.5"), ("bits", "16"),
+         ("quantity", "signal"), ("source_detector_mm", "900")],
+    )  # fmt: skip
+    assert problems == ()
+    assert tree == {
+        "phantom": {"name": "sphere"},
+        "view": {"preset": "pa", "source_detector_mm": 900},
+        "detector": {"columns": 512},
+        "beam": {"energy_kev": 70.5},
+        "presentation": {"bits": 16},
+        "quantity": "signal",
+    }
+
+
+def test_unknown_and_repeated_words_are_all_told():
+    _, problems = request_tree({}, [("colour", "1"), ("bits", "8"), ("bits", "16"), ("~/", "")])
+    assert [(p.path, p.kind) for p in problems] == [
+        ("/colour", "unknown_field"),
+        ("/presentation/bits", "given_twice"),
+        ("/~0~1", "unknown_field"),
+    ]
+    with pytest.raises(InvalidInputError, match="twice"):
+        parameters([("a", "1"), ("a", "2")])
+
+
+def test_every_word_has_its_own_place():
+    assert len(set(WORDS.values())) == len(WORDS)
