@@ -89,7 +89,8 @@ def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | No
         parts = segments(shape, tolerance)
         outline, stretch = _outline(shape, parts.knots)
         if shape.contour.outline is None:
-            table, section = None, CircleSection()
+            table: StarTable | None = None
+            section: CircleSection | StarSection = CircleSection()
         else:
             share = (1 - tolerances.FIT_SHARE) * tolerance / stretch
             table = star_table(shape.contour.outline, share)

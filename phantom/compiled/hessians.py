@@ -14,6 +14,8 @@ is traced, not for an ideal one.
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -104,7 +106,7 @@ def _tau_ranges(polynomials: Floats) -> tuple[Floats, Floats]:
     """Ranges over the cells of tau: two arrays (K, cells, 12)."""
     edges = np.linspace(-1, 1, _TAU_CELLS + 1)
     low, high = [], []
-    for a, b in zip(edges, edges[1:], strict=False):
+    for a, b in itertools.pairwise(edges):
         control = polynomials @ bernstein_matrix(DEGREE, float(a), float(b)).T
         low.append(control.min(axis=-1))
         high.append(control.max(axis=-1))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,9 +51,7 @@ class Scene(NamedTuple):
 
 def frozen(scene: Scene) -> Scene:
     """Return the scene with every array contiguous and read-only."""
-    arrays = []
-    for array in scene:
-        array = np.ascontiguousarray(array)
+    arrays: list[Any] = [np.ascontiguousarray(array) for array in scene]
+    for array in arrays:
         array.setflags(write=False)
-        arrays.append(array)
     return Scene(*arrays)

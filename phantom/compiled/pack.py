@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,7 +78,8 @@ def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
             table_rows.append(row)
         # Generalized cylinders have a knot more than segments; a quadric's place is left empty.
     world = np.array(world_boxes)
-    joined = {name: np.concatenate(values) for name, values in parts.items()}
+    joined: dict[str, Any] = {name: np.concatenate(values) for name, values in parts.items()}
+    joined |= _tables([table for _, table in tables.values()])
     return frozen(
         Scene(
             leaf_center=np.array(centers),
@@ -92,7 +94,6 @@ def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
             first_segment=_starts(segment_counts),
             knots=_knots(knots[1:], segment_counts),
             **joined,
-            **_tables([table for _, table in tables.values()]),
             parent=np.array(tree.parent, dtype=np.int64),
             operator=np.array(tree.operator, dtype=np.int64),
             left=np.array(tree.left, dtype=np.int64),

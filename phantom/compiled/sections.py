@@ -117,7 +117,7 @@ def _pyramid(low: Floats, high: Floats) -> tuple[Floats, Floats]:
 
 def _shifted(values: Floats, step: int, axis: int) -> Floats:
     index = np.minimum(np.arange(values.shape[axis]) + step, values.shape[axis] - 1)
-    return np.take(values, index, axis=axis)
+    return np.asarray(np.take(values, index, axis=axis))
 
 
 def _q_derivatives(table: StarTable, x: Interval, y: Interval) -> list[Interval]:

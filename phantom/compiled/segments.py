@@ -248,7 +248,7 @@ def _body_margin(
         height = side * (np.einsum("ki,kbi->kb", normal, x0) - level[:, None])
         reach = _support(hull, -side * np.einsum("ki,kbij->kbj", normal, x1), is_circle)
         margins.append((height - reach).min(axis=1))
-    return np.minimum(margins[0], margins[1])
+    return np.asarray(np.minimum(margins[0], margins[1]))
 
 
 def _displacement(

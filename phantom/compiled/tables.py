@@ -1,8 +1,8 @@
 """The squared radius of a star-shaped contour as a table over the pseudo-angle.
 
-The pseudo-angle T is that of :mod:`phantom.geometry.star`. Each cell holds a quintic in its own local coordinate that meets q, q' and q'' at both ends (Hermite), so the table
-is C2 wherever the contour is; cells are halved until the radius is right everywhere they are
-checked.
+The pseudo-angle T is that of :mod:`phantom.geometry.star`. Each cell holds a quintic in its own
+local coordinate that meets q, q' and q'' at both ends (Hermite), so the table is C2 wherever the
+contour is; cells are halved until the radius is right everywhere they are checked.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ class Contour:
 
 def outline_points(outline: Outline, count: int) -> Floats:
     """Spread about ``count`` points over the pieces of an outline, at least four on each."""
-    return outline_samples(outline, count)[0]
+    return np.asarray(outline_samples(outline, count)[0])
 
 
 def outline_samples(outline: Outline, count: int) -> Floats:
@@ -199,7 +199,7 @@ def _deepest(points: Floats, edges: Floats, size: float) -> Floats:
     limits = -_cross(edges, points)
     span = [(-size + points[:, k].min(), size + points[:, k].max()) for k in range(2)]
     answer = linprog([0, 0, -1], A_ub=rows, b_ub=limits, bounds=[*span, (-2 * size, size)])
-    return np.asarray(answer.x[:2], dtype=np.float64)
+    return np.asarray(answer.x, dtype=np.float64)[:2]
 
 
 def _refuse(points: Floats, margin: float) -> None:

@@ -2,8 +2,8 @@
 
 ``rotation_minimizing`` frames are found by quadrature, not by stepping: on a short cell the frame
 is written as a turn by ``angle(u)`` of the projection of one fixed vector m, and the condition that
-it does not turn about the tangent t, ``e1' . e2 = 0``, becomes ``angle' = (m.t)(t'.r2)/L``: a smooth
-scalar whose Chebyshev series integrates to rounding (Bishop 1975, doi:10.2307/2319846).
+it does not turn about the tangent t, ``e1' . e2 = 0``, becomes ``angle' = (m.t)(t'.r2)/L``: a
+smooth scalar whose Chebyshev series integrates to rounding (Bishop 1975, doi:10.2307/2319846).
 """
 
 from __future__ import annotations

@@ -28,7 +28,9 @@ def lobatto_nodes(degree: int = DEGREE) -> Floats:
 @cache
 def interpolation_matrix(degree: int = DEGREE) -> Floats:
     """Return the matrix that maps values at the Lobatto nodes to monomial coefficients."""
-    return np.linalg.inv(np.vander(lobatto_nodes(degree), increasing=True))
+    return np.asarray(
+        np.linalg.inv(np.vander(lobatto_nodes(degree), increasing=True)), dtype=np.float64
+    )
 
 
 @cache

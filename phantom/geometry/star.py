@@ -6,6 +6,8 @@ over [0, 8) once round, anticlockwise. No arc tangent is needed to look a point 
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,7 +46,7 @@ def monotone_cells(outline: Outline) -> tuple[Floats, Floats, Ints]:
         marks = np.concatenate([[a], inner[(inner > a) & (inner < b)], [b]])
         if a < 8.0 < b and 8.0 not in marks:
             marks = np.sort(np.append(marks, 8.0))
-        for low, high in zip(marks, marks[1:], strict=False):
+        for low, high in itertools.pairwise(marks):
             if high - low < 1e-13:
                 continue
             wrap = 8.0 if low >= 8.0 else 0.0

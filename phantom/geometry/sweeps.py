@@ -6,6 +6,7 @@ section plane back to the initial contour (paper section III.A).
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -96,7 +97,7 @@ def linear_sweep(sweep: doc.LinearSweep) -> LinearSweep:
         (profile(sweep.offset[0]), profile(sweep.offset[1])),
     )
     breaks = result.breaks
-    u = np.concatenate([np.linspace(a, b, 65) for a, b in zip(breaks, breaks[1:], strict=False)])
+    u = np.concatenate([np.linspace(a, b, 65) for a, b in itertools.pairwise(breaks)])
     matrix, _ = result.maps(u)
     stretches = np.linalg.svd(matrix, compute_uv=False)
     ratio = stretches[:, 1] / max(float(stretches[:, 0].max()), 1e-300)

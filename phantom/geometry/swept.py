@@ -53,7 +53,7 @@ class SweptShape:
         keep[0] = True
         merged = merged[keep]
         merged[-1] = self.curve.breaks[-1]
-        return merged
+        return np.asarray(merged)
 
     def pieces(self, breaks: Floats) -> Ints:
         """Return the axis piece over each interval of ``breaks``."""

@@ -7,6 +7,8 @@ or split by what that allows (engine notes in ``docs/methods/engine.md``).
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -142,8 +144,8 @@ def stays_positive(
 def reach(g: float, slope: float, low: float) -> float:
     """How far a parabola of second derivative ``low <= 0`` stays positive."""
     if low == 0.0:
-        return np.inf if slope >= 0.0 else -g / slope
-    root = np.sqrt(slope * slope - 2.0 * low * g)
+        return math.inf if slope >= 0.0 else -g / slope
+    root = math.sqrt(slope * slope - 2.0 * low * g)
     # The larger root of g + slope s + low s^2 / 2, without cancellation.
     if slope >= 0.0:
         return -(slope + root) / low

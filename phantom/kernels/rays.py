@@ -256,7 +256,7 @@ def intervals(
     out_leaf: Ints,
     counter: Ints,
 ) -> tuple[int, int]:
-    """Write the pieces of the final solid; return (rays done, rows filled), short of room or not."""
+    """Write the pieces of the final solid; return how many rays are done and rows filled."""
     entries, exits = np.empty(room), np.empty(room)
     owners = np.empty(room, dtype=np.int64)
     where, order = np.empty(2 * room), np.empty(2 * room, dtype=np.int64)

@@ -47,7 +47,7 @@ def star(
     # Edges of a table with n cells take n + 1 places: one more than its cells per table.
     edge = cell + table
     last = first_cell[table + 1] - 1
-    while cell < last and T >= edges[edge + 1]:
+    while cell < last and edges[edge + 1] <= T:
         cell += 1
         edge += 1
     half = 0.5 * (edges[edge + 1] - edges[edge])

@@ -1,0 +1,1 @@
+"""Truth from outside the engine: closed forms and slow, obvious twins."""
