@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from phantom import document as doc
 from phantom.compiled.hessians import hessian_bounds
-from phantom.compiled.sections import CircleSection, StarSection
+from phantom.compiled.sections import CircleSection, Section, StarSection
 from phantom.compiled.segments import Segments, segments
 from phantom.compiled.tables import StarTable, star_table
 from phantom.errors import Problem
@@ -29,7 +29,7 @@ class Cylinder:
     """A traced generalized cylinder in mm; ``outline`` is a sample of its surface."""
 
     segments: Segments
-    hessians: Floats  # (K, 6, 2) per mm^2
+    hessians: Floats  # (K, CELLS, CELLS, 6, 2) per mm^2
     table: StarTable | None
     outline: Floats  # (P, 3) points of the surface
     planes: Halfspaces
@@ -90,7 +90,7 @@ def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | No
         outline, stretch = _outline(shape, parts.knots)
         if shape.contour.outline is None:
             table: StarTable | None = None
-            section: CircleSection | StarSection = CircleSection()
+            section: Section = CircleSection()
         else:
             share = (1 - tolerances.FIT_SHARE) * tolerance / stretch
             table = star_table(shape.contour.outline, share)

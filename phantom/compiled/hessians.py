@@ -20,32 +20,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.intervals import Interval, dot
-from phantom.compiled.sections import CircleSection, StarSection
+from phantom.compiled.layout import CELLS
+from phantom.compiled.sections import Section
 from phantom.compiled.segments import Segments
 from phantom.geometry.polynomials import DEGREE, bernstein_matrix, derivative
 
 Floats = NDArray[np.float64]
 
 _TAU_CELLS = 4
-_BOX_CELLS = 4
 _WIDEN = 1e-9
-_BATCH = 256
+_BATCH = 64
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 """Entries of the Hessian along the box axes e1, e2, t, in stored order."""
 
 
-def hessian_bounds(segments: Segments, section: CircleSection | StarSection) -> Floats:
-    """Return ``(K, 6, 2)`` bounds of the Hessian of G along the box axes, per mm^2."""
+def hessian_bounds(segments: Segments, section: Section) -> Floats:
+    """Return bounds of the Hessian of G along the box axes, per mm^2.
+
+    The shape is ``(K, CELLS, CELLS, 6, 2)``: a cell holds for all points of the segment whose
+    coordinates along e1 and e2 lie in it.
+    """
     count = len(segments.origins)
-    result = np.empty((count, 6, 2))
+    result = np.empty((count, CELLS, CELLS, 6, 2))
     for first in range(0, count, _BATCH):
         chosen = slice(first, min(first + _BATCH, count))
         result[chosen] = _batch(segments, section, chosen)
     return result
 
 
-def _batch(segments: Segments, section: CircleSection | StarSection, chosen: slice) -> Floats:
+def _batch(segments: Segments, section: Section, chosen: slice) -> Floats:
     polynomials = segments.polynomials[chosen]
     axes, boxes = segments.axes[chosen], segments.boxes[chosen]
     local = polynomials.copy()
@@ -79,7 +83,7 @@ def _batch(segments: Segments, section: CircleSection | StarSection, chosen: sli
         )
     h = section.over(phi[0], phi[1])
     g = gradients
-    bounds = np.empty((len(axes), 6, 2))
+    bounds = np.empty((len(axes), CELLS, CELLS, 6, 2))
     for index, (a, c) in enumerate(PAIRS):
         if a == c:
             quadratic = (
@@ -94,11 +98,11 @@ def _batch(segments: Segments, section: CircleSection | StarSection, chosen: sli
                 + h.hessian[2] * (g[1][a] * g[1][c])
             )
         entry = quadratic + h.gradient[0] * hessians[0][index] + h.gradient[1] * hessians[1][index]
-        bounds[:, index, 0] = entry.low.reshape(len(axes), -1).min(axis=1)
-        bounds[:, index, 1] = entry.high.reshape(len(axes), -1).max(axis=1)
-    slack = _WIDEN * np.abs(bounds).max(axis=(1, 2))
-    bounds[..., 0] -= slack[:, None]
-    bounds[..., 1] += slack[:, None]
+        bounds[..., index, 0] = entry.low.min(axis=1)
+        bounds[..., index, 1] = entry.high.max(axis=1)
+    slack = _WIDEN * np.abs(bounds).max(axis=(-2, -1))[..., None]
+    bounds[..., 0] -= slack
+    bounds[..., 1] += slack
     return bounds
 
 
@@ -119,7 +123,7 @@ def _pick(ranges: tuple[Floats, Floats], row: int) -> Interval:
 
 def _points(normal: list[Interval], level: Interval, boxes: Floats) -> list[Interval]:
     """Cells of x along e1, e2 and t; x_t is what the section plane leaves of the box."""
-    fractions = np.linspace(0, 1, _BOX_CELLS + 1)
+    fractions = np.linspace(0, 1, CELLS + 1)
     edges = boxes[:, :2, :1] + fractions * (boxes[:, :2, 1:] - boxes[:, :2, :1])
     first = Interval(edges[:, 0, None, :-1, None], edges[:, 0, None, 1:, None])
     second = Interval(edges[:, 1, None, None, :-1], edges[:, 1, None, None, 1:])

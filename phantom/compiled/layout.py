@@ -14,6 +14,10 @@ UNION, INTERSECTION, DIFFERENCE, OVERLAP, REPLACE = range(5)
 """Operators as kernels know them."""
 
 
+CELLS = 8
+"""Bounds of second derivatives are kept on this many cells along each side of a segment's box."""
+
+
 class Scene(NamedTuple):
     """L leaves, S segments of generalized cylinders, a binary tree of operators.
 
@@ -36,13 +40,12 @@ class Scene(NamedTuple):
     polynomials: Floats  # (S, 12, 7)
     axes: Floats  # (S, 3, 3)
     boxes: Floats  # (S, 3, 2)
-    hessians: Floats  # (S, 6, 2)
+    hessians: Floats  # (S, CELLS, CELLS, 6, 2) by cell along e1 and e2
     first_cell: Ints  # (tables + 1,)
     edges: Floats  # cells + 1 numbers a table
     cells: Floats  # (C, 6)
     first_bucket: Ints  # (tables + 1,)
     buckets: Ints  # the cell in which each bucket of the pseudo-angle begins
-    blends: Floats  # (tables, 2) blend radius squared, mean of q
     parent: Ints  # (nodes,) -1 at the root; nodes 0 .. L - 1 are the leaves
     operator: Ints  # (nodes,) of inner nodes
     left: Ints  # (nodes,)

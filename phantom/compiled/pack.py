@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.cylinders import Cylinder
-from phantom.compiled.layout import Scene, frozen
+from phantom.compiled.layout import CELLS, Scene, frozen
 from phantom.compiled.tables import StarTable
 from phantom.compiled.tree import Tree
 from phantom.geometry.quadrics import QuadricShape
@@ -35,7 +35,7 @@ def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
         "polynomials": [np.zeros((0, 12, 7))],
         "axes": [np.zeros((0, 3, 3))],
         "boxes": [np.zeros((0, 3, 2))],
-        "hessians": [np.zeros((0, 6, 2))],
+        "hessians": [np.zeros((0, CELLS, CELLS, 6, 2))],
     }
     tables: dict[int, tuple[int, StarTable]] = {}
     plane_counts, segment_counts, form_rows, table_rows = [], [], [], []
@@ -124,7 +124,7 @@ def _form(shape: QuadricShape, center: Floats) -> Floats:
 
 
 def _tables(tables: list[StarTable]) -> dict[str, NDArray[np.float64] | NDArray[np.int64]]:
-    cells, edges, blends, buckets = [np.zeros((0, 6))], [np.zeros(0)], [np.zeros((0, 2))], []
+    cells, edges, buckets = [np.zeros((0, 6))], [np.zeros(0)], []
     cell_counts, bucket_counts = [], []
     first = 0
     for table in tables:
@@ -133,7 +133,6 @@ def _tables(tables: list[StarTable]) -> dict[str, NDArray[np.float64] | NDArray[
         buckets.append(first + np.searchsorted(table.edges, marks, side="right") - 1)
         cells.append(table.cells)
         edges.append(table.edges)
-        blends.append(np.array([[table.blend, table.mean]]))
         cell_counts.append(len(table.cells))
         bucket_counts.append(count)
         first += len(table.cells)
@@ -143,5 +142,4 @@ def _tables(tables: list[StarTable]) -> dict[str, NDArray[np.float64] | NDArray[
         "cells": np.concatenate(cells),
         "first_bucket": _starts(bucket_counts),
         "buckets": np.concatenate([np.zeros(0), *buckets]).astype(np.int64),
-        "blends": np.concatenate(blends),
     }

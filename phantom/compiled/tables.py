@@ -1,7 +1,7 @@
-"""The squared radius of a star-shaped contour as a table over the pseudo-angle.
+"""The gauge of a star-shaped contour as a table over the pseudo-angle.
 
 The pseudo-angle T is that of :mod:`phantom.geometry.star`. Each cell holds a quintic in its own
-local coordinate that meets q, q' and q'' at both ends (Hermite), so the table is C2 wherever the
+local coordinate that meets g, g' and g'' at both ends (Hermite), so the table is C2 wherever the
 contour is; cells are halved until the radius is right everywhere they are checked.
 """
 
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from phantom.geometry.outlines import Outline
 from phantom.geometry.polynomials import bernstein_matrix, derivative, evaluate
 from phantom.geometry.refusal import RefusalError
-from phantom.geometry.star import monotone_cells, squared_radius
+from phantom.geometry.star import gauge, monotone_cells
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -26,17 +26,10 @@ _CHECKS = np.array([-0.9, -0.6, -0.25, 0.1, 0.45, 0.75, 0.95])
 
 @dataclass(frozen=True)
 class StarTable:
-    """q(T) = squared radius in unit coordinates."""
+    """g(T) of :func:`phantom.geometry.star.gauge`: the contour is ``X^2 g = 1``."""
 
     edges: Floats  # (cells + 1,) in T, from 0 to 8
     cells: Floats  # (cells, 6) powers of the local coordinate in [-1, 1]
-    smallest: float  # the smallest radius
-    mean: float  # a mean of q, to which the middle is blended
-
-    @property
-    def blend(self) -> float:
-        """Below this squared radius q is blended to its mean."""
-        return 0.81 * self.smallest**2
 
 
 def star_table(outline: Outline, tolerance: float) -> StarTable:
@@ -48,12 +41,12 @@ def star_table(outline: Outline, tolerance: float) -> StarTable:
         At ``/contour``, where more than :data:`MAX_CELLS` cells would be needed.
     """
     starts, ends, owner = monotone_cells(outline)
-    done: list[tuple[Floats, Floats, Floats, float]] = []
+    done: list[tuple[Floats, Floats]] = []
     total = 0
     for _ in range(40):
-        cells, error, least = _hermite(outline, starts, ends, owner)
+        cells, error = _hermite(outline, starts, ends, owner)
         good = error <= tolerance
-        done.append((starts[good], ends[good], cells[good], least))
+        done.append((starts[good], cells[good]))
         total += int(good.sum())
         if good.all():
             break
@@ -74,11 +67,8 @@ def star_table(outline: Outline, tolerance: float) -> StarTable:
         )
     low = np.concatenate([d[0] for d in done])
     order = np.argsort(low)
-    cells = np.concatenate([d[2] for d in done])[order]
-    edges = np.append(low[order], 8.0)
-    # The mean over the table's own variable is as good a centre as any.
-    mean = float(np.sum(cells @ np.array([1, 0, 1 / 3, 0, 1 / 5, 0]) * np.diff(edges)) / 8)
-    return StarTable(edges, cells, min(d[3] for d in done), mean)
+    cells = np.concatenate([d[1] for d in done])[order]
+    return StarTable(np.append(low[order], 8.0), cells)
 
 
 def _hermite_matrix() -> Floats:
@@ -95,28 +85,28 @@ def _hermite_matrix() -> Floats:
 _HERMITE = _hermite_matrix()
 
 
-def _hermite(
-    outline: Outline, starts: Floats, ends: Floats, owner: Ints
-) -> tuple[Floats, Floats, float]:
-    """Fit quintics to cells; return them, their errors of radius, and the smallest radius seen."""
+def _hermite(outline: Outline, starts: Floats, ends: Floats, owner: Ints) -> tuple[Floats, Floats]:
+    """Fit quintics to cells; return them and their errors of radius."""
     half = 0.5 * (ends - starts)
     # Ends are taken a hair inside, so that they fall into this cell's chart.
     data = []
     for T in (starts, ends):
         inside = np.clip(T, starts, np.nextafter(ends, starts))
-        q, q1, q2 = squared_radius(outline, inside, owner)
-        data += [q, q1 * half, q2 * half**2]
+        g, g1, g2 = gauge(outline, inside, owner)
+        data += [g, g1 * half, g2 * half**2]
     cells = np.stack(data, axis=-1) @ _HERMITE.T
     checks = (0.5 * (starts + ends))[:, None] + half[:, None] * _CHECKS
     flat = np.repeat(owner, len(_CHECKS))
-    truth = squared_radius(outline, checks.ravel(), flat)[0].reshape(checks.shape)
-    error = np.abs(evaluate(cells[:, None, :], _CHECKS) - truth) / (2 * np.sqrt(truth))
-    least = float(np.sqrt(min(truth.min(), data[0].min(), data[3].min())))
-    return cells, error.max(axis=1), least
+    truth = gauge(outline, checks.ravel(), flat)[0].reshape(checks.shape)
+    # h = X^2 g - 1 has slope 2 / r across the contour: an error of g moves it by r X^2 / 2 of it.
+    t = checks - 2.0 * np.minimum(checks // 2, 3) - 1.0
+    radius = np.sqrt((1 + t**2) / truth)
+    error = 0.5 * radius * np.abs(evaluate(cells[:, None, :], _CHECKS) - truth) / truth
+    return cells, error.max(axis=1)
 
 
 def derivative_ranges(table: StarTable) -> tuple[Floats, Floats, Floats]:
-    """Bounds ``(cells, 2)`` of q, q' and q'' over each cell, from Bernstein coefficients."""
+    """Bounds ``(cells, 2)`` of g, g' and g'' over each cell, from Bernstein coefficients."""
     half = (0.5 * np.diff(table.edges))[:, None]
     ranges = []
     coefficients = table.cells

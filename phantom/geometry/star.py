@@ -81,21 +81,23 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
     return np.asarray(v)
 
 
-def squared_radius(outline: Outline, T: Floats, piece: Ints) -> Floats:
-    """Return q, dq/dT and d2q/dT2 as ``(3, n)``."""
+def gauge(outline: Outline, T: Floats, piece: Ints) -> Floats:
+    """Return g, dg/dT and d2g/dT2 as ``(3, n)``, where g = 1 / X^2 and X is the major coordinate.
+
+    The contour is ``X^2 g(t) = 1`` on each chart: g is a square of a linear function on a straight
+    edge, and a quadratic on an ellipse.
+    """
     v = _solve(outline, T, piece)
     p, p1, p2 = outline.derivatives(v, piece)
-    chart = np.minimum(T // 2, 3).astype(np.intp)
-    cos, sin = _TURNS[chart].T
-    # Derivatives of t = minor / major and of q = |p|^2 by v, then by t.
+    cos, sin = _TURNS[np.minimum(T // 2, 3).astype(np.intp)].T
     a, a1, a2 = (cos * w[:, 0] + sin * w[:, 1] for w in (p, p1, p2))
     b, b1, b2 = (cos * w[:, 1] - sin * w[:, 0] for w in (p, p1, p2))
     t1 = (b1 * a - b * a1) / a**2
     t2 = (b2 * a - b * a2) / a**2 - 2 * a1 * t1 / a
-    q = np.einsum("ni,ni->n", p, p)
-    q1 = 2 * np.einsum("ni,ni->n", p, p1)
-    q2 = 2 * np.einsum("ni,ni->n", p1, p1) + 2 * np.einsum("ni,ni->n", p, p2)
-    return np.stack([q, q1 / t1, (q2 - q1 * t2 / t1) / t1**2])
+    g = a**-2
+    g1 = -2 * a1 / a**3
+    g2 = 6 * a1**2 / a**4 - 2 * a2 / a**3
+    return np.stack([g, g1 / t1, (g2 - g1 * t2 / t1) / t1**2])
 
 
 def radii(outline: Outline, points: Floats) -> Floats:
@@ -105,4 +107,6 @@ def radii(outline: Outline, points: Floats) -> Floats:
     order = np.argsort(starts)
     starts, ends, owner = starts[order], ends[order], owner[order]
     cell = np.clip(np.searchsorted(starts, at, side="right") - 1, 0, len(starts) - 1)
-    return np.asarray(np.sqrt(squared_radius(outline, at, owner[cell])[0]))
+    # r^2 = X^2 (1 + t^2) with X^2 = 1 / g.
+    t = at - 2.0 * np.minimum(at // 2, 3) - 1.0
+    return np.asarray(np.sqrt((1 + t**2) / gauge(outline, at, owner[cell])[0]))

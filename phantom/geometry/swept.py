@@ -105,8 +105,11 @@ def swept_shape(leaf: doc.GeneralizedCylinder) -> tuple[SweptShape | None, list[
 
 def _plain_frame(section: Contour, sweep: object, axis: object, around: Frame) -> Frame:
     """A circle that stays a circle about the axis may be drawn in the smoothest frame."""
-    circle = section.matrix[0, 0] == section.matrix[1, 1]
-    if circle and isinstance(sweep, LinearSweep) and sweep.is_round:
-        if not isinstance(around, RotationMinimizingFrame):
-            return rotation_minimizing(axis)  # type: ignore[arg-type]
+    if (
+        section.matrix[0, 0] == section.matrix[1, 1]
+        and isinstance(sweep, LinearSweep)
+        and sweep.is_round
+        and not isinstance(around, RotationMinimizingFrame)
+    ):
+        return rotation_minimizing(axis)  # type: ignore[arg-type]
     return around

@@ -1,7 +1,7 @@
 """A ray against one segment of a generalized cylinder: every chord, none lost.
 
 Along the ray, G(w) = h(phi(w)) is negative inside. Its second derivative lies in [low, high] over
-the whole segment (:mod:`phantom.compiled.hessians`), and a piece of the ray is discarded, accepted
+the cells it runs through (:mod:`phantom.compiled.hessians`), and a piece is discarded, accepted
 or split by what that allows (engine notes in ``docs/methods/engine.md``).
 """
 
@@ -12,6 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from phantom.compiled.layout import CELLS
 from phantom.kernels.compiling import kernel
 from phantom.kernels.section import circle, star
 
@@ -23,6 +24,10 @@ STACK = 256
 
 ROW = 8
 """Numbers of a waiting piece: w, G, slope and tau at its two ends."""
+
+
+_EDGE = 1e-9
+"""Cells are taken this much wider, in cells: a point on an edge counts for both sides."""
 
 
 @kernel
@@ -83,7 +88,6 @@ def evaluate(
     cells: Floats,
     first_bucket: Ints,
     buckets: Ints,
-    blends: Floats,
 ) -> tuple[float, float, float]:
     """Return G, dG/dw and tau at w."""
     tau = solve_tau(work, w, guess)
@@ -109,7 +113,7 @@ def evaluate(
     if table < 0:
         h, hx, hy = circle(x, y)
     else:
-        h, hx, hy = star(x, y, table, first_cell, edges, cells, first_bucket, buckets, blends)
+        h, hx, hy = star(x, y, table, first_cell, edges, cells, first_bucket, buckets)
     return h, hx * xd + hy * yd, tau
 
 
@@ -142,14 +146,16 @@ def stays_positive(
 
 @kernel
 def reach(g: float, slope: float, low: float) -> float:
-    """How far a parabola of second derivative ``low <= 0`` stays positive."""
-    if low == 0.0:
-        return math.inf if slope >= 0.0 else -g / slope
-    root = math.sqrt(slope * slope - 2.0 * low * g)
-    # The larger root of g + slope s + low s^2 / 2, without cancellation.
+    """How far ``g + slope s + low s^2 / 2`` stays positive, from g >= 0 at s = 0."""
     if slope >= 0.0:
-        return -(slope + root) / low
-    return 2.0 * g / (root - slope)
+        if low >= 0.0:
+            return math.inf
+        # The larger root, without cancellation.
+        return -(slope + math.sqrt(slope * slope - 2.0 * low * g)) / low
+    square = slope * slope - 2.0 * low * g
+    if square < 0.0:
+        return math.inf
+    return 2.0 * g / (math.sqrt(square) - slope)
 
 
 @kernel
@@ -172,6 +178,7 @@ def polish(
     work: Floats,
     a: float,
     ga: float,
+    sa: float,
     b: float,
     gb: float,
     tau: float,
@@ -181,15 +188,19 @@ def polish(
     cells: Floats,
     first_bucket: Ints,
     buckets: Ints,
-    blends: Floats,
     counter: Ints,
 ) -> float:
     """Find the root of G between a and b, of opposite signs, by safeguarded Newton."""
     falling = ga > 0.0
-    w = a + (b - a) * ga / (ga - gb)
+    # A first guess from the parabola through both ends with the slope at the first.
+    bend = (gb - ga - sa * (b - a)) / ((b - a) * (b - a))
+    root = math.sqrt(max(sa * sa - 4.0 * bend * ga, 0.0))
+    w = a + 2.0 * ga / ((root if falling else -root) - sa)
+    if not (w > a and w < b):
+        w = 0.5 * (a + b)
     for _ in range(100):
         g, slope, tau = evaluate(
-            work, w, tau, table, first_cell, edges, cells, first_bucket, buckets, blends
+            work, w, tau, table, first_cell, edges, cells, first_bucket, buckets
         )
         counter[0] += 1
         if g == 0.0:
@@ -210,13 +221,56 @@ def polish(
 
 
 @kernel
+def curvature(
+    hessians: Floats, k: int, lane: Floats, start: float, end: float
+) -> tuple[float, float]:
+    """Return bounds of G'' on [start, end] of the ray, from the cells of the box it runs through.
+
+    ``lane`` holds the ray in cell units, ``p1 d1 p2 d2``, and then the six products of its
+    direction with itself that weight the entries of the Hessian.
+    """
+    low, high = math.inf, -math.inf
+    p1, d1, p2, d2 = lane[0], lane[1], lane[2], lane[3]
+    a1, b1 = p1 + start * d1, p1 + end * d1
+    first = min(max(int(min(a1, b1) - _EDGE), 0), CELLS - 1)
+    last = min(max(int(max(a1, b1) + _EDGE), 0), CELLS - 1)
+    for i in range(first, last + 1):
+        # The part of the ray over this row of cells, a hair wider than it is.
+        a, b = start, end
+        if first < last:
+            u, v = (i - _EDGE - p1) / d1, (i + 1 + _EDGE - p1) / d1
+            if u > v:
+                u, v = v, u
+            if i > 0 and i < CELLS - 1:
+                a, b = max(a, u), min(b, v)
+            elif (i == 0) == (d1 > 0):
+                b = min(b, v)
+            else:
+                a = max(a, u)
+        a2, b2 = p2 + a * d2, p2 + b * d2
+        left = min(max(int(min(a2, b2) - _EDGE), 0), CELLS - 1)
+        right = min(max(int(max(a2, b2) + _EDGE), 0), CELLS - 1)
+        for j in range(left, right + 1):
+            least = most = 0.0
+            for pair in range(6):
+                weight = lane[4 + pair]
+                x = weight * hessians[k, i, j, pair, 0]
+                y = weight * hessians[k, i, j, pair, 1]
+                least += min(x, y)
+                most += max(x, y)
+            low, high = min(low, least), max(high, most)
+    return low, high
+
+
+@kernel
 def chords(
     work: Floats,
     stack: Floats,
+    hessians: Floats,
+    k: int,
+    lane: Floats,
     start: float,
     end: float,
-    low: float,
-    high: float,
     shortest: float,
     table: int,
     first_cell: Ints,
@@ -224,7 +278,6 @@ def chords(
     cells: Floats,
     first_bucket: Ints,
     buckets: Ints,
-    blends: Floats,
     found: Floats,
     room: int,
     counter: Ints,
@@ -233,16 +286,21 @@ def chords(
 
     A negative answer means there was no room for all of them.
     """
-    g0, s0, t0 = evaluate(
-        work, start, 0.0, table, first_cell, edges, cells, first_bucket, buckets, blends
-    )
-    g1, s1, t1 = evaluate(
-        work, end, t0, table, first_cell, edges, cells, first_bucket, buckets, blends
-    )
-    counter[0] += 2
+    g0, s0, t0 = evaluate(work, start, 0.0, table, first_cell, edges, cells, first_bucket, buckets)
+    counter[0] += 1
     count = 0
     inside = g0 < 0.0
     entry = start
+    # What one end and the bounds decide needs no look at the other.
+    low, high = curvature(hessians, k, lane, start, end)
+    if inside:
+        if reach(-g0, -s0, -high) > end - start:
+            found[0, 0], found[0, 1] = start, end
+            return 1
+    elif reach(g0, s0, low) > end - start:
+        return 0
+    g1, s1, t1 = evaluate(work, end, t0, table, first_cell, edges, cells, first_bucket, buckets)
+    counter[0] += 1
     stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = start, g0, s0, t0
     stack[0, 4], stack[0, 5], stack[0, 6], stack[0, 7] = end, g1, s1, t1
     waiting = 1
@@ -253,12 +311,15 @@ def chords(
         span = b - a
         opposite = (g0 < 0.0) != (g1 < 0.0)
         short = span < shortest
+        if not short and (a > start or b < end):
+            low, high = curvature(hessians, k, lane, a, b)
         if opposite:
             if short or crosses_once(g0, s0, s1, span, low, high):
                 w = polish(
                     work,
                     a,
                     g0,
+                    s0,
                     b,
                     g1,
                     t0,
@@ -268,7 +329,6 @@ def chords(
                     cells,
                     first_bucket,
                     buckets,
-                    blends,
                     counter,
                 )
                 if inside:
@@ -302,7 +362,6 @@ def chords(
             cells,
             first_bucket,
             buckets,
-            blends,
         )
         counter[0] += 1
         if waiting + 2 > STACK:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.compiled.layout import Scene
+from phantom.compiled.layout import CELLS, Scene
 from phantom.kernels.compiling import kernel
 from phantom.kernels.cylinder import chords, contract
 from phantom.kernels.quadric import half_line, roots
@@ -129,6 +129,7 @@ def cylinder_leaf(
     exits: Floats,
     owners: Ints,
     work: Floats,
+    lane: Floats,
     stack: Floats,
     found: Floats,
     counter: Ints,
@@ -162,7 +163,6 @@ def cylinder_leaf(
         if not a < b:
             continue
         ox, oy, oz = x - scene.origins[k, 0], y - scene.origins[k, 1], z - scene.origins[k, 2]
-        h_low = h_high = 0.0
         e0 = e1 = e2 = 0.0
         for axis in range(3):
             u0, u1, u2 = scene.axes[k, axis, 0], scene.axes[k, axis, 1], scene.axes[k, axis, 2]
@@ -174,38 +174,29 @@ def cylinder_leaf(
             a, b = half_line(scene.boxes[k, axis, 0] - p, -d, a, b)
             if not a < b:
                 break
+            if axis == 2:
+                e2 = d
+                break
+            cells = CELLS / (scene.boxes[k, axis, 1] - scene.boxes[k, axis, 0])
+            lane[2 * axis] = (p - scene.boxes[k, axis, 0]) * cells
+            lane[2 * axis + 1] = d * cells
             if axis == 0:
                 e0 = d
-            elif axis == 1:
-                e1 = d
             else:
-                e2 = d
+                e1 = d
         if not a < b:
             continue
-        for pair in range(6):
-            if pair < 3:
-                u = e0 if pair == 0 else (e1 if pair == 1 else e2)
-                weight = u * u
-            elif pair == 3:
-                weight = 2.0 * e0 * e1
-            elif pair == 4:
-                weight = 2.0 * e0 * e2
-            else:
-                weight = 2.0 * e1 * e2
-            if weight >= 0:
-                h_low += weight * scene.hessians[k, pair, 0]
-                h_high += weight * scene.hessians[k, pair, 1]
-            else:
-                h_low += weight * scene.hessians[k, pair, 1]
-                h_high += weight * scene.hessians[k, pair, 0]
+        lane[4], lane[5], lane[6] = e0 * e0, e1 * e1, e2 * e2
+        lane[7], lane[8], lane[9] = 2.0 * e0 * e1, 2.0 * e0 * e2, 2.0 * e1 * e2
         contract(scene.polynomials, k, ox, oy, oz, dx, dy, dz, work)
         chord_count = chords(
             work,
             stack,
+            scene.hessians,
+            k,
+            lane,
             a,
             b,
-            h_low,
-            h_high,
             shortest,
             scene.leaf_table[leaf],
             scene.first_cell,
@@ -213,7 +204,6 @@ def cylinder_leaf(
             scene.cells,
             scene.first_bucket,
             scene.buckets,
-            scene.blends,
             found,
             len(found),
             counter,
@@ -244,6 +234,7 @@ def leaf_intervals(
     exits: Floats,
     owners: Ints,
     work: Floats,
+    lane: Floats,
     stack: Floats,
     found: Floats,
     counter: Ints,
@@ -306,6 +297,7 @@ def leaf_intervals(
                 exits,
                 owners,
                 work,
+                lane,
                 stack,
                 found,
                 counter,

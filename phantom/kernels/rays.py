@@ -135,7 +135,8 @@ def path_lengths(
     entries, exits = np.empty(room), np.empty(room)
     owners = np.empty(room, dtype=np.int64)
     where, order = np.empty(2 * room), np.empty(2 * room, dtype=np.int64)
-    work, stack, found = np.empty((6, 7)), np.empty((STACK, ROW)), np.empty((room, 2))
+    work, lane = np.empty((6, 7)), np.empty(10)
+    stack, found = np.empty((STACK, ROW)), np.empty((room, 2))
     present = np.zeros(len(scene.parent), dtype=np.uint8)
     nodes = np.empty(len(scene.parent) + 1, dtype=np.int64)
     kept = np.empty(len(scene.leaf_radius) + 1, dtype=np.int64)
@@ -155,6 +156,7 @@ def path_lengths(
             exits,
             owners,
             work,
+            lane,
             stack,
             found,
             counter,
@@ -189,7 +191,8 @@ def raster(
     entries, exits = np.empty(room), np.empty(room)
     owners = np.empty(room, dtype=np.int64)
     where, order = np.empty(2 * room), np.empty(2 * room, dtype=np.int64)
-    work, stack, found = np.empty((6, 7)), np.empty((STACK, ROW)), np.empty((room, 2))
+    work, lane = np.empty((6, 7)), np.empty(10)
+    stack, found = np.empty((STACK, ROW)), np.empty((room, 2))
     present = np.zeros(len(scene.parent), dtype=np.uint8)
     nodes = np.empty(len(scene.parent) + 1, dtype=np.int64)
     kept = np.empty(len(scene.leaf_radius) + 1, dtype=np.int64)
@@ -220,6 +223,7 @@ def raster(
                 exits,
                 owners,
                 work,
+                lane,
                 stack,
                 found,
                 counter,
@@ -260,7 +264,8 @@ def intervals(
     entries, exits = np.empty(room), np.empty(room)
     owners = np.empty(room, dtype=np.int64)
     where, order = np.empty(2 * room), np.empty(2 * room, dtype=np.int64)
-    work, stack, found = np.empty((6, 7)), np.empty((STACK, ROW)), np.empty((room, 2))
+    work, lane = np.empty((6, 7)), np.empty(10)
+    stack, found = np.empty((STACK, ROW)), np.empty((room, 2))
     present = np.zeros(len(scene.parent), dtype=np.uint8)
     nodes = np.empty(len(scene.parent) + 1, dtype=np.int64)
     kept = np.empty(len(scene.leaf_radius) + 1, dtype=np.int64)
@@ -281,6 +286,7 @@ def intervals(
             exits,
             owners,
             work,
+            lane,
             stack,
             found,
             counter,

@@ -27,18 +27,14 @@ def star(
     cells: Floats,
     first_bucket: Ints,
     buckets: Ints,
-    blends: Floats,
 ) -> tuple[float, float, float]:
-    """Return h, dh/dx and dh/dy of a tabulated contour (:mod:`phantom.compiled.tables`)."""
-    s = x * x + y * y
-    blend, mean = blends[table, 0], blends[table, 1]
-    start = 0.25 * blend
-    if s <= start:
-        return s - mean, 2.0 * x, 2.0 * y
+    """Return h, dh/dx and dh/dy of a tabulated contour (:mod:`phantom.compiled.sections`)."""
     if abs(x) >= abs(y):
         chart, major, minor = (0.0, x, y) if x >= 0 else (2.0, -x, -y)
     else:
         chart, major, minor = (1.0, y, -x) if y >= 0 else (3.0, -y, x)
+    if major == 0.0:
+        return -1.0, 0.0, 0.0
     t = minor / major
     T = 2.0 * chart + t + 1.0
     count = first_bucket[table + 1] - first_bucket[table]
@@ -54,17 +50,9 @@ def star(
     z = (T - edges[edge] - half) / half
     c0, c1, c2 = cells[cell, 0], cells[cell, 1], cells[cell, 2]
     c3, c4, c5 = cells[cell, 3], cells[cell, 4], cells[cell, 5]
-    q = ((((c5 * z + c4) * z + c3) * z + c2) * z + c1) * z + c0
+    g = ((((c5 * z + c4) * z + c3) * z + c2) * z + c1) * z + c0
     slope = ((((5 * c5 * z + 4 * c4) * z + 3 * c3) * z + 2 * c2) * z + c1) / half
-    g_major, g_minor = -slope * t / major, slope / major
-    if s < blend:
-        u = (s - start) / (blend - start)
-        b = u * u * u * (10.0 + u * (6.0 * u - 15.0))
-        b1 = 30.0 * u * u * (1.0 - u) * (1.0 - u) / (blend - start)
-        excess = q - mean
-        q = mean + b * excess
-        g_major = b * g_major + 2.0 * b1 * excess * major
-        g_minor = b * g_minor + 2.0 * b1 * excess * minor
+    g_major, g_minor = major * (2.0 * g - t * slope), major * slope
     if chart == 0.0:
         gx, gy = g_major, g_minor
     elif chart == 1.0:
@@ -73,4 +61,4 @@ def star(
         gx, gy = -g_major, -g_minor
     else:
         gx, gy = g_minor, -g_major
-    return s - q, 2.0 * x - gx, 2.0 * y - gy
+    return major * major * g - 1.0, gx, gy
