@@ -26,8 +26,7 @@ def subject(target: str, settings: list[str] | None) -> dict[str, object]:
     from phantom.errors import InvalidInputError, Problem
     from phantom.requests.words import parameters
 
-    is_file = Path(target).suffix.lower() in (".json", ".yaml", ".yml") or Path(target).is_file()
-    if target in library.names() or not is_file:
+    if target in library.names() or not _is_file(target):
         return {"name": target, "parameters": parameters(map(_pair, settings or ()))}
     if settings:
         message = "found --set with a file; expected it with a phantom of the library"
@@ -40,6 +39,14 @@ def read_file(name: str) -> object:
     from phantom.document.reading import read_tree
 
     return read_tree(Path(name))
+
+
+def _is_file(target: str) -> bool:
+    """Tell whether a target is, or is written as, a document's file."""
+    try:
+        return target.lower().endswith((".json", ".yaml", ".yml")) or Path(target).is_file()
+    except OSError:  # no name a file could have
+        return False
 
 
 def _pair(text: str) -> tuple[str, str]:

@@ -52,6 +52,7 @@ def test_bad_input_leaves_with_2_and_says_where(tmp_path: Path):
     lines = done.stderr.splitlines()
     assert [line.split(":")[0] for line in lines] == ["/phantom/name", "/view/preset"]
     assert start("validate", "no-such-file.json").returncode == 2
+    assert start("radiograph", "x" * 5000).returncode == 2
     assert start("radiograph", "sphere", "--no-such-option").returncode == 2
 
 
