@@ -66,7 +66,7 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
     ray = turn + t[:, None] * across
     normal = np.stack([-ray[:, 1], ray[:, 0]], axis=-1)
     low, high = outline.breaks[piece].copy(), outline.breaks[piece + 1].copy()
-    v = 0.5 * (low + high)
+    v, width = 0.5 * (low + high), high - low
     for _ in range(80):
         value = outline.derivatives(v, piece)
         f = np.einsum("ni,ni->n", value[0], normal)
@@ -75,9 +75,11 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
         newton = v - f / np.where(slope != 0, slope, 1.0)
         usable = (slope > 0) & (newton >= low) & (newton <= high)
         step = np.where(usable, newton, 0.5 * (low + high))
-        if np.all(np.abs(step - v) <= 4e-16 * np.maximum(np.abs(v), 1e-3)):
-            break
+        moved = np.abs(step - v)
         v = step
+        # A Newton step this small leaves its square: nothing.
+        if np.all(moved <= 1e-9 * width):
+            break
     return np.asarray(v)
 
 

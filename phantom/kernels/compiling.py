@@ -12,7 +12,7 @@ import tempfile
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numba
 
@@ -47,13 +47,14 @@ def cache_folder() -> str:
 
 def kernel(function: Kernel) -> Kernel:
     """Compile a function on first call; division by zero gives inf or nan, as in numpy."""
-    before = numba.config.CACHE_DIR
+    settings: Any = numba.config
+    before = settings.CACHE_DIR
     # The place is read while the function is decorated; other users of numba keep theirs.
-    numba.config.CACHE_DIR = cache_folder()
+    settings.CACHE_DIR = cache_folder()
     try:
         compiled = numba.njit(nogil=True, cache=True, error_model="numpy")(function)
     finally:
-        numba.config.CACHE_DIR = before
+        settings.CACHE_DIR = before
     return cast(Kernel, compiled)
 
 

@@ -1,0 +1,28 @@
+# Everything CI runs.
+check: format-check lint types imports test
+
+format:
+    uv run ruff format .
+
+format-check:
+    uv run ruff format --check .
+
+lint:
+    uv run ruff check .
+
+types:
+    uv run mypy
+
+imports:
+    uv run lint-imports
+
+test:
+    uv run pytest
+
+# The long runs that the ordinary ones leave out.
+nightly:
+    uv run pytest -m nightly
+
+# Redraw every picture of the README and the docs.
+figures:
+    uv run python docs/make_figures.py
