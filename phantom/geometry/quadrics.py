@@ -205,10 +205,12 @@ def bounds(shape: QuadricShape) -> Floats:
                 continue
             found += _extremes(shape, rows, planes.offsets[list(chosen)])
     points = np.array(found).reshape(-1, 3)
-    size = max(1.0, float(np.abs(points - shape.center).max(initial=0.0)))
-    inside = np.all(points @ planes.normals.T <= planes.offsets + 1e-9 * size, axis=1)
+    # Planes that are nearly parallel meet far away; what is kept is judged by its own size.
+    sizes = np.maximum(1.0, np.abs(points - shape.center).max(axis=1, initial=0.0))
+    slack = 1e-9 * sizes[:, None]
+    inside = np.all(points @ planes.normals.T <= planes.offsets + slack, axis=1)
     inside &= shape.values(points) <= 1e-7
-    points = points[inside]
+    points, size = points[inside], float(sizes[inside].max(initial=1.0))
     box = np.stack([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
     if np.any(box[1] - box[0] <= 1e-9 * size):
         raise RefusalError("", "empty", "nothing is left of this solid; expected a volume above 0")
@@ -229,10 +231,14 @@ def _extremes(shape: QuadricShape, rows: Floats, offsets: Floats) -> list[Floats
     inner = basis.T @ a @ basis
     slope = basis.T @ (a @ (base - shape.center) + b)
     level = float(shape.values(base[None])[0])
-    inverse = np.linalg.pinv(inner, rcond=1e-12)
+    inverse: Floats = np.asarray(np.linalg.pinv(inner, rcond=1e-12), dtype=np.float64)
     middle = -inverse @ slope
     at_middle = level + slope @ middle
     points = [base + basis @ middle]
+    drift = slope + inner @ middle
+    size = float(np.abs(a).max()) * (1.0 + float(np.linalg.norm(base - shape.center)))
+    if np.linalg.norm(drift) > 1e-12 * size:
+        return points + [base + basis @ y for y in _vertices(basis, inverse, slope, drift, level)]
     for axis in np.eye(3):
         direction = inverse @ (basis.T @ axis)
         bend = float(direction @ inner @ direction)
@@ -240,4 +246,25 @@ def _extremes(shape: QuadricShape, rows: Floats, offsets: Floats) -> list[Floats
             continue
         reach = np.sqrt(-at_middle / bend)
         points += [base + basis @ (middle + s * reach * direction) for s in (-1.0, 1.0)]
+    return points
+
+
+def _vertices(
+    basis: Floats, inverse: Floats, slope: Floats, drift: Floats, level: float
+) -> list[Floats]:
+    """Extreme points of a paraboloid ``y.A.y + 2 slope.y + level = 0``, in its own coordinates.
+
+    It opens along ``-drift``, the part of ``slope`` that A maps to 0. An extreme point along g has
+    ``A y + slope = m g``; along the drift that fixes m, and the surface fixes y there.
+    """
+    points = []
+    square = float(drift @ drift)
+    for axis in np.eye(3):
+        g = basis.T @ axis
+        share = float(g @ drift)
+        if abs(share) <= 1e-9 * np.sqrt(square):  # g is not bounded by the surface alone
+            continue
+        y = inverse @ (square / share * g - slope)
+        value = float(y @ (square / share * g - slope)) + 2 * float(slope @ y) + level
+        points.append(y - value / (2 * square) * drift)
     return points
