@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from fastapi import APIRouter, Request
 
 from api.bodies import JSON, read_json
@@ -24,10 +26,10 @@ def routes(service: Service) -> APIRouter:
     )
     async def validate(request: Request) -> DocumentSummary:
         tree = await read_json(request, service.settings.max_json_bytes)
-        return await service.workshop.run(request, lambda _: _summary(tree))
+        return await service.workshop.run(request, lambda cancelled: _summary(tree, cancelled))
 
     return router
 
 
-def _summary(tree: object) -> DocumentSummary:
-    return summarise(scene.load(tree if isinstance(tree, dict) else parse(tree)))
+def _summary(tree: object, cancelled: Callable[[], bool]) -> DocumentSummary:
+    return summarise(scene.load(tree if isinstance(tree, dict) else parse(tree)), cancelled)

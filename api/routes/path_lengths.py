@@ -55,11 +55,14 @@ def routes(service: Service) -> APIRouter:
             subject = phantom_of(request.query_params)
             data = await read_bytes(request, service.settings.max_npy_bytes)
             answer = await service.workshop.run(
-                request, lambda _: trace_npy(subject, data, service.limits)
+                request,
+                lambda cancelled: trace_npy(subject, data, service.limits, cancelled),
             )
         else:
             tree = await read_json(request, service.settings.max_json_bytes)
-            answer = await service.workshop.run(request, lambda _: trace(tree, service.limits))
+            answer = await service.workshop.run(
+                request, lambda cancelled: trace(tree, service.limits, cancelled)
+            )
         content = await run_sync(_encoded, *answer, wanted)
         return Response(content, media_type=wanted, headers={"Vary": "Accept"})
 

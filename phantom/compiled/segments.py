@@ -131,6 +131,14 @@ def check_local_overlap(shape: SweptShape) -> None:
     speed2 = np.einsum("ni,ni->n", at.first, at.first)
     along = np.einsum("ni,ni->n", at.first, at.second) / speed2
     curvature = (at.second - along[:, None] * at.first) / speed2[:, None]
+    thin = np.linalg.svd(at.spread, compute_uv=False)[:, 1]
+    if thin.min() < tolerances.SMALLEST_SECTION_MM:
+        raise RefusalError(
+            "/sweep",
+            "thin_section",
+            f"the section at u = {u.ravel()[int(np.argmin(thin))]:.6g} is {thin.min():.3g} mm "
+            f"thin; expected at least {tolerances.SMALLEST_SECTION_MM:g} mm",
+        )
     hull = shape.contour.unit_points(_HULL_POINTS)
     reach = np.einsum("ni,ni->n", at.middle - at.axis, curvature) + _support(
         hull, np.einsum("nij,ni->nj", at.spread, curvature), shape.contour.outline is None

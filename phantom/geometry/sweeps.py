@@ -100,7 +100,14 @@ def linear_sweep(sweep: doc.LinearSweep) -> LinearSweep:
     u = np.concatenate([np.linspace(a, b, 65) for a, b in itertools.pairwise(breaks)])
     matrix, _ = result.maps(u)
     stretches = np.linalg.svd(matrix, compute_uv=False)
-    ratio = stretches[:, 1] / max(float(stretches[:, 0].max()), 1e-300)
+    largest = float(stretches[:, 0].max())
+    if not 1e-9 <= largest <= 1e9:
+        raise RefusalError(
+            "/sweep",
+            "out_of_range",
+            f"the sweep stretches by {largest:.3g} at most; expected 1e-09 to 1e+09",
+        )
+    ratio = stretches[:, 1] / largest
     # A change of orientation between two samples is a zero in between, however steep.
     determinant = np.linalg.det(matrix)
     flips = np.flatnonzero(determinant[:-1] * determinant[1:] < 0)

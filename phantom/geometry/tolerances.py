@@ -14,6 +14,9 @@ CHORD_MM = 1e-3
 SINGULAR_SWEEP = 1e-3
 """A sweep is refused where its smallest stretch falls below this share of the largest."""
 
+SMALLEST_SECTION_MM = 1e-6
+"""A section thinner than this is refused: nothing of it could be told from the tolerance."""
+
 CLOSING_MM = 1e-9
 """Sections at the two ends of a closed axis agree to this."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
 import numpy as np
@@ -46,7 +46,9 @@ class PhantomRequest(Model):
     phantom: Annotated[Subject, told("Phantom", "none", "What the rays cross.")]
 
 
-def trace(tree: object, limits: Limits | None = None) -> tuple[Phantom, FloatArray]:
+def trace(
+    tree: object, limits: Limits | None = None, cancelled: Callable[[], bool] | None = None
+) -> tuple[Phantom, FloatArray]:
     """Return the phantom and the (N, M) path lengths in mm that a request asks for.
 
     Raises
@@ -60,26 +62,34 @@ def trace(tree: object, limits: Limits | None = None) -> tuple[Phantom, FloatArr
         np.asarray(request.origins, dtype=np.float64).reshape(-1, 3),
         np.asarray(request.directions, dtype=np.float64).reshape(-1, 3),
         limits,
+        cancelled,
     )
 
 
 def trace_npy(
-    phantom: Mapping[str, Any], data: bytes, limits: Limits | None = None
+    phantom: Mapping[str, Any],
+    data: bytes,
+    limits: Limits | None = None,
+    cancelled: Callable[[], bool] | None = None,
 ) -> tuple[Phantom, FloatArray]:
     """Do as `trace`, for rays in an NPY file of shape (N, 2, 3): an origin and a direction each."""
     _, loaded = read_request(PhantomRequest, {"phantom": phantom})
     rays = _rays(data)
-    return _traced(loaded, rays[:, 0], rays[:, 1], limits)
+    return _traced(loaded, rays[:, 0], rays[:, 1], limits, cancelled)
 
 
 def _traced(
-    phantom: Phantom, origins: FloatArray, directions: FloatArray, limits: Limits | None
+    phantom: Phantom,
+    origins: FloatArray,
+    directions: FloatArray,
+    limits: Limits | None,
+    cancelled: Callable[[], bool] | None,
 ) -> tuple[Phantom, FloatArray]:
     if len(origins) != len(directions):
         message = f"found {len(directions)}; expected as many as there are origins, {len(origins)}"
         raise InvalidInputError([Problem("/directions", "wrong_length", message)])
     (limits or Limits()).check_rays(len(origins), len(phantom.material_names))
-    return phantom, path_lengths(phantom, origins, directions)
+    return phantom, path_lengths(phantom, origins, directions, cancelled=cancelled)
 
 
 def _rays(data: bytes) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated
 
 from phantom.document import (
@@ -62,10 +63,10 @@ def density_g_cm3(material: Material) -> float | None:
     return reference(material.reference).density_g_cm3
 
 
-def summarise(phantom: Phantom) -> DocumentSummary:
+def summarise(phantom: Phantom, cancelled: Callable[[], bool] | None = None) -> DocumentSummary:
     """Measure a phantom; volumes are right to 0.1 %."""
     document: Document = phantom.document
-    measured = measure(phantom)
+    measured = measure(phantom, cancelled=cancelled)
     materials = tuple(
         _material(name, document.materials[name], float(volume))
         for name, volume in zip(

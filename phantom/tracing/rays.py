@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -93,7 +94,13 @@ def check_rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Float
     return start, along
 
 
-def path_lengths(phantom: Phantom, origins: ArrayLike, directions: ArrayLike) -> Floats:
+def path_lengths(
+    phantom: Phantom,
+    origins: ArrayLike,
+    directions: ArrayLike,
+    *,
+    cancelled: Callable[[], bool] | None = None,
+) -> Floats:
     """Trace rays that start at their origins and go on without end.
 
     Parameters
@@ -104,6 +111,8 @@ def path_lengths(phantom: Phantom, origins: ArrayLike, directions: ArrayLike) ->
         ``(N, 3)`` mm; an origin inside a solid is legal.
     directions
         ``(N, 3)``, of any length above 0.
+    cancelled
+        Asked between bands of rays; yes ends the trace with :class:`CancelledError`.
 
     Returns
     -------
@@ -116,10 +125,15 @@ def path_lengths(phantom: Phantom, origins: ArrayLike, directions: ArrayLike) ->
         With every problem of the arrays.
     """
     start, along = check_rays(origins, directions)
-    return trace(phantom, start, along)
+    return trace(phantom, start, along, cancelled)
 
 
-def trace(phantom: Phantom, start: Floats, along: Floats) -> Floats:
+def trace(
+    phantom: Phantom,
+    start: Floats,
+    along: Floats,
+    cancelled: Callable[[], bool] | None = None,
+) -> Floats:
     """Path lengths of rays already checked: unit directions, no end."""
     from phantom.kernels import rays as kernels
 
@@ -144,7 +158,7 @@ def trace(phantom: Phantom, start: Floats, along: Floats) -> Floats:
                 return
             at, room = at + stopped, 4 * room
 
-    run_bands(band, cut_bands(len(start), _BAND))
+    run_bands(band, cut_bands(len(start), _BAND), cancelled=cancelled)
     return out
 
 
