@@ -43,7 +43,7 @@ from phantom.library import Entry, Technique
 
 SOURCES: Final = (
     "Hsu, Chelberg 1993, section IV.C and figure 10: the six primitives.",
-    "Anatomy Research International 2012, 679658 (360 dried femora): men's bicondylar width 88.6 mm,"
+    "Anatomy Research International 2012, 679658: men's bicondylar width 88.6 mm,"
     " condylar depth 61.1 mm, intercondylar width 22.0 mm.",
     "Minimum joint space width in the knees of healthy individuals, BMC Musculoskeletal Disorders"
     " 2008, 9:119: men's medial joint space 5.7 mm.",
