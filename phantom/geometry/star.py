@@ -65,7 +65,8 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
     # The point lies on the ray of direction major + t minor: its component across it is zero.
     ray = turn + t[:, None] * across
     normal = np.stack([-ray[:, 1], ray[:, 0]], axis=-1)
-    low, high = outline.breaks[piece].copy(), outline.breaks[piece + 1].copy()
+    first, last = outline.breaks[piece], outline.breaks[piece + 1]
+    low, high = first, last
     v, width = 0.5 * (low + high), high - low
     for _ in range(80):
         value = outline.derivatives(v, piece)
@@ -74,7 +75,10 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
         low, high = np.where(f < 0, v, low), np.where(f < 0, high, v)
         newton = v - f / np.where(slope != 0, slope, 1.0)
         usable = (slope > 0) & (newton >= low) & (newton <= high)
+        # Near the root Newton is right to rounding, even where the bracket's end is the root.
+        settled = (slope > 0) & (np.abs(newton - v) <= 1e-6 * width)
         step = np.where(usable, newton, 0.5 * (low + high))
+        step = np.where(settled, np.clip(newton, first, last), step)
         moved = np.abs(step - v)
         v = step
         # A Newton step this small leaves its square: nothing.
@@ -100,6 +104,31 @@ def gauge(outline: Outline, T: Floats, piece: Ints) -> Floats:
     g1 = -2 * a1 / a**3
     g2 = 6 * a1**2 / a**4 - 2 * a2 / a**3
     return np.stack([g, g1 / t1, (g2 - g1 * t2 / t1) / t1**2])
+
+
+def kinks(outline: Outline) -> Floats:
+    """Return the corners of an outline, ``(k, 2)``: T and the jump of h's gradient there.
+
+    Going anticlockwise over the corner's ray, the component of grad h across the ray jumps by this
+    much times |phi|; positive at a convex corner. On the contour ``grad h = 2 n / (phi . n)``.
+    """
+    breaks = outline.breaks
+    count = len(breaks) - 1
+    before = np.roll(np.arange(count), 1)
+    points, after1, _ = outline.derivatives(breaks[:-1], np.arange(count))
+    _, before1, _ = outline.derivatives(breaks[1:][before], before)
+    across = np.stack([-points[:, 1], points[:, 0]], axis=-1)
+    radius2 = np.einsum("ni,ni->n", points, points)
+
+    def slope(tangent: Floats) -> Floats:
+        normal = np.stack([tangent[:, 1], -tangent[:, 0]], axis=-1)
+        gradient = 2 * normal / np.einsum("ni,ni->n", points, normal)[:, None]
+        # Per unit of |phi|, along the unit vector across the ray.
+        return np.asarray(np.einsum("ni,ni->n", gradient, across) / radius2)
+
+    jump = slope(after1) - slope(before1)
+    real = np.abs(jump) > 1e-7
+    return np.stack([pseudo_angle(points[real]), jump[real]], axis=-1)
 
 
 def radii(outline: Outline, points: Floats) -> Floats:

@@ -68,7 +68,8 @@ def _turning(axis):
     if axis["type"] == "arc":
         angle, rise = np.radians(axis["angle_deg"]), 0.0
     else:
-        angle, rise = 2 * np.pi * axis["turns"], axis["pitch"] * axis["turns"]
+        # Each turn advances by the pitch, left-handed turns too.
+        angle, rise = 2 * np.pi * axis["turns"], axis["pitch"] * abs(axis["turns"])
     base = center + height * k
 
     def at(u):
