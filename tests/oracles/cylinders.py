@@ -102,9 +102,9 @@ class RotationMinimizing:
         n = world - (world @ tangents[0]) * tangents[0]
         self.n = [n / np.linalg.norm(n)]
         places = axis(self.grid)
-        for i in range(len(self.grid) - 1):
-            step = _reflect(places[i : i + 2], tangents[i : i + 2], self.n[-1])
-            self.n.append(step)
+        turns = _turn(places[:-1], places[1:], tangents[:-1], tangents[1:])
+        for turn in turns:
+            self.n.append(turn @ self.n[-1])
         self.n = np.array(self.n)
         self.leftover = 0.0
         if axis.closed:
@@ -116,34 +116,26 @@ class RotationMinimizing:
     def __call__(self, u):
         i = np.clip(np.searchsorted(self.grid, u, side="right") - 1, 0, len(self.grid) - 2)
         start = self.grid[i]
-        n = _reflect_many(
-            self.axis(start),
-            self.axis(u),
-            self.axis.tangent(start),
-            self.axis.tangent(u),
-            self.n[i],
+        turns = _turn(
+            self.axis(start), self.axis(u), self.axis.tangent(start), self.axis.tangent(u)
         )
+        n = np.einsum("nij,nj->ni", turns, self.n[i])
         t = self.axis.tangent(u)
         turn = (-self.leftover * u)[:, None]
         return np.cos(turn) * n + np.sin(turn) * np.cross(t, n)
 
 
-def _reflect(places, tangents, n):
-    return _reflect_many(places[:1], places[1:], tangents[:1], tangents[1:], n[None])[0]
+def _turn(x0, x1, t0, t1):
+    """Matrices (k, 3, 3) that carry a frame from x0 to x1: a reflection in the plane between the
+    two points, then one that brings the tangent onto that at x1."""
+    first = _reflection(x1 - x0)
+    return _reflection(t1 - np.einsum("nij,nj->ni", first, t0)) @ first
 
 
-def _reflect_many(x0, x1, t0, t1, n):
-    step = x1 - x0
-    square = (step * step).sum(axis=1)[:, None]
-    still = square == 0
-    step = np.where(still, 0.0, step) / np.sqrt(np.where(still, 1.0, square))
-    n = n - 2 * (step * n).sum(axis=1)[:, None] * step
-    t = t0 - 2 * (step * t0).sum(axis=1)[:, None] * step
-    # After one reflection t points back; the second brings it onto the tangent at the end.
-    across = t1 - t
-    square = (across * across).sum(axis=1)[:, None]
-    back = n - 2 * (across * n).sum(axis=1)[:, None] * across / np.where(square == 0, 1.0, square)
-    return np.where(still, n, back)
+def _reflection(v):
+    square = (v * v).sum(axis=1)[:, None, None]
+    outer = v[:, :, None] * v[:, None, :]
+    return np.eye(3) - 2 * np.where(square == 0, 0.0, outer) / np.where(square == 0, 1.0, square)
 
 
 def frame(kind, axis):

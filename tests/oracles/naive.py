@@ -28,7 +28,11 @@ class Twin:
 
     def survivors(self, points):
         """(P, L) bool: the leaves of the final solid at each point."""
-        return self.root(np.asarray(points, dtype=float))
+        state = self.root(np.asarray(points, dtype=float))
+        out = np.zeros((len(points), len(self.leaves)), dtype=bool)
+        for leaf, mask in state.items():
+            out[:, leaf] = mask
+        return out
 
     def materials_at(self, points):
         """(P, M) counts of each material at each point."""
@@ -66,9 +70,7 @@ class Twin:
             inside = shape(x)
             for point, normal in cuts:
                 inside &= (x - point) @ normal <= 0
-            out = np.zeros((len(x), len(self.leaves)), dtype=bool)
-            out[:, index] = inside
-            return out
+            return {index: inside}
 
         return state
 
@@ -116,17 +118,18 @@ class Twin:
         """Whether the leaves that are left change somewhere within a distance of each point.
 
         Looks at the corners and the faces of a small cube, so a surface nearer than about
-        0.57 of the distance is always seen and one farther than it never.
+        0.85 of the distance is always seen and one farther than it never.
         """
         near = np.array([(i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)])
         near = near[np.any(near != 0, axis=1)].astype(float)
         near *= distance / np.linalg.norm(near, axis=1)[:, None]
         states = self.survivors((points[:, None] + near).reshape(-1, 3))
-        states = states.reshape(len(points), len(near), -1)
+        states = states.reshape(len(points), len(near), len(self.leaves))
         return np.any(states != states[:, :1], axis=(1, 2))
 
     def _states(self, origins, directions, ray, w):
-        parts = [
+        parts = [np.zeros((0, len(self.leaves)), dtype=bool)]
+        parts += [
             self.survivors(origins[ray[k : k + 20_000]] + w[k : k + 20_000, None] * d)
             for k in range(0, len(w), 20_000)
             for d in (directions[ray[k : k + 20_000]],)
@@ -167,38 +170,33 @@ def _cuts(leaf):
     return leaf.get("cuts", ())
 
 
-def _padded(left, right):
-    """The states of an earlier leaf do not know of later ones: they are absent there."""
-    if left.shape[1] < right.shape[1]:
-        left = np.pad(left, ((0, 0), (0, right.shape[1] - left.shape[1])))
-    if right.shape[1] < left.shape[1]:
-        right = np.pad(right, ((0, 0), (0, left.shape[1] - right.shape[1])))
-    return left, right, left.any(axis=1)[:, None], right.any(axis=1)[:, None]
+def _present(state):
+    """Where any leaf is left. A state maps leaf numbers to the points where the leaf is left."""
+    return np.logical_or.reduce(list(state.values()))
+
+
+def _kept(state, where):
+    return {leaf: mask & where for leaf, mask in state.items()}
 
 
 def _union(left, right):
-    left, right, on_left, _ = _padded(left, right)
-    return np.where(on_left, left, right)
+    return left | _kept(right, ~_present(left))
 
 
 def _intersection(left, right):
-    left, right, _, on_right = _padded(left, right)
-    return left & on_right
+    return _kept(left, _present(right))
 
 
 def _difference(left, right):
-    left, right, _, on_right = _padded(left, right)
-    return left & ~on_right
+    return _kept(left, ~_present(right))
 
 
 def _overlap(left, right):
-    left, right, _, _ = _padded(left, right)
     return left | right
 
 
 def _replace(left, right):
-    left, right, _, on_right = _padded(left, right)
-    return np.where(on_right, right, left)
+    return _kept(left, ~_present(right)) | right
 
 
 OPERATORS = {
