@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import math
 import time
-from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -25,6 +24,7 @@ from phantom.document.expressions import (
 )
 from phantom.document.formula_text import parse_formula
 from phantom.document.formula_tokens import FormulaError
+from tests.oracles.formulas import arithmetic, by_hand, comparisons, numbers, texts
 
 SIGNS: dict[type, str] = {
     ast.Add: "+",
@@ -88,35 +88,9 @@ def read(text: str) -> tuple[Expression | None, FormulaError | None]:
         return None, error
 
 
-numbers = st.sampled_from(["0", "1", "2", "0.5", ".25", "3.", "1e1", "7E-2"])
-signs = st.sampled_from(["+", "-", "*", "/", "**", "**"])
-comparisons = st.sampled_from(["<", "<=", ">", ">=", "==", "!="])
-
-
-def longer(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
-    """Texts made of texts, with parentheses only here and there."""
-    called = st.sampled_from(sorted(FUNCTIONS)).flatmap(
-        lambda name: st.builds(
-            lambda arguments: f"{name}({' , '.join(arguments)})",
-            st.lists(inner, min_size=FUNCTIONS[name][0], max_size=min(3, FUNCTIONS[name][1])),
-        )
-    )
-    conditional = st.tuples(inner, inner, comparisons, inner, inner).map(
-        lambda t: f"{t[0]} if {t[1]} {t[2]} {t[3]} else {t[4]}"
-    )
-    return (
-        inner.map(lambda t: f"({t})")
-        | inner.map(lambda t: f"- {t}")
-        | st.tuples(inner, signs, inner).map(" ".join)
-        | called
-        | conditional
-    )
-
-
-texts = st.recursive(numbers | st.sampled_from(["u", "x", "pi"]), longer, max_leaves=25)
 token_soup = st.lists(
     numbers
-    | signs
+    | arithmetic
     | comparisons
     | st.sampled_from(["u", "x", "pi", "if", "else", "(", ")", "sin", "max", "atan2", ","])
     | st.sampled_from(["and", "not", "y", "is", "True", "lambda", "%", "//", "."]),
@@ -166,30 +140,7 @@ def test_what_python_does_not_read_is_no_formula_either(text: str) -> None:
     ],
 )
 def test_precedence_and_grouping(text: str, value: float) -> None:
-    assert by_hand(parse_formula(text, ())) == value
-
-
-def by_hand(node: Any) -> float:
-    compare = {
-        "<": lambda a, b: a < b,
-        "<=": lambda a, b: a <= b,
-        "!=": lambda a, b: a != b,
-    }
-    match node:
-        case Constant(value):
-            return value
-        case Negation(operand):
-            return -by_hand(operand)
-        case Operation(sign, left, right):
-            a, b = by_hand(left), by_hand(right)
-            if sign == "**":
-                return float(a**b)
-            return {"+": a + b, "-": a - b, "*": a * b, "/": a / b if b else math.nan}[sign]
-        case Conditional(Comparison(operators, operands), then, otherwise):
-            values = [by_hand(operand) for operand in operands]
-            pairs = zip(operators, values, values[1:], strict=False)
-            return by_hand(then if all(compare[o](a, b) for o, a, b in pairs) else otherwise)
-    raise AssertionError(node)
+    assert by_hand(parse_formula(text, ()), math) == value
 
 
 REFUSED = [
