@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom import document as doc
-from phantom.compiled.hessians import hessian_bounds
-from phantom.compiled.sections import CircleSection, Section, StarSection
+from phantom.compiled.changing import ChangingSection, ChangingTable, changing_tables
+from phantom.compiled.hessians import Bounds, hessian_bounds
+from phantom.compiled.sections import CircleSection, StarSection
 from phantom.compiled.segments import Segments, segments
 from phantom.compiled.tables import StarTable, star_table
 from phantom.errors import Problem
@@ -18,24 +19,24 @@ from phantom.geometry.closing import check_closing
 from phantom.geometry.halfspaces import Halfspaces
 from phantom.geometry.quadrics import MAX_CUTS
 from phantom.geometry.refusal import RefusalError
-from phantom.geometry.swept import SweptShape, swept_shape
+from phantom.geometry.swept import ChangingShape, Shape, swept_shapes
 from phantom.geometry.transforms import Similarity
 
 Floats = NDArray[np.float64]
 
+Table = StarTable | ChangingTable | None
+
 
 @dataclass(frozen=True)
-class Cylinder:
-    """A traced generalized cylinder in mm; ``outline`` is a sample of its surface."""
+class Part:
+    """One star-shaped part of a generalized cylinder, traced by itself."""
 
     segments: Segments
-    hessians: Floats  # (K, CELLS, CELLS, 6, 2) per mm^2
-    table: StarTable | None
-    outline: Floats  # (P, 3) points of the surface
-    planes: Halfspaces
+    bounds: Bounds
+    tables: tuple[Table, ...]  # (K,) one a segment; None for circles
 
-    def moved(self, to: Similarity) -> Cylinder:
-        """Return the cylinder moved by a similarity; phi and tau keep their values."""
+    def moved(self, to: Similarity) -> Part:
+        """Return the part moved by a similarity; phi and tau keep their values."""
         s, r = to.scale, to.rotation
         old = self.segments
         polynomials = old.polynomials.copy()
@@ -53,20 +54,34 @@ class Cylinder:
             boxes=old.boxes * s,
             error_mm=old.error_mm * s,
         )
+        return Part(moved, self.bounds.scaled(s), self.tables)
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A generalized cylinder in mm; ``outline`` is a sample of its surface."""
+
+    parts: tuple[Part, ...]
+    outline: Floats  # (P, 3) points of the surface
+    planes: Halfspaces
+
+    def moved(self, to: Similarity) -> Cylinder:
+        """Return the cylinder moved by a similarity."""
         return Cylinder(
-            moved,
-            self.hessians / s**2,
-            self.table,
+            tuple(part.moved(to) for part in self.parts),
             to.points(self.outline),
             self.planes.moved(to),
         )
 
     def boxes_corners(self) -> Floats:
-        """Return the corners of all segment boxes, ``(8 K, 3)``: their hull holds the solid."""
+        """Return the corners of all segment boxes: their hull holds the solid."""
         signs = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
-        chosen = self.segments.boxes[:, np.arange(3), signs]  # (K, 8, 3)
-        corners = np.einsum("kca,kai->kci", chosen, self.segments.axes)
-        return np.asarray((corners + self.segments.origins[:, None]).reshape(-1, 3))
+        found = []
+        for part in self.parts:
+            chosen = part.segments.boxes[:, np.arange(3), signs]  # (K, 8, 3)
+            corners = np.einsum("kca,kai->kci", chosen, part.segments.axes)
+            found.append((corners + part.segments.origins[:, None]).reshape(-1, 3))
+        return np.concatenate(found)
 
 
 def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | None, list[Problem]]:
@@ -75,8 +90,8 @@ def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | No
     The scale only sets the tolerance: the surface is right to :data:`tolerances.SURFACE_MM` where
     it ends up.
     """
-    shape, problems = swept_shape(leaf)
-    if shape is None:
+    shapes, problems = swept_shapes(leaf)
+    if problems:
         return None, problems
     tolerance = tolerances.SURFACE_MM / scale
     try:
@@ -85,22 +100,34 @@ def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | No
             raise RefusalError(
                 "/cuts", "too_many", f"{len(cuts.offsets)} cuts; expected at most {MAX_CUTS}"
             )
-        check_closing(shape)
-        parts = segments(shape, tolerance)
-        outline, stretch = _outline(shape, parts.knots)
-        if shape.contour.outline is None:
-            table: StarTable | None = None
-            section: Section = CircleSection()
-        else:
-            share = (1 - tolerances.FIT_SHARE) * tolerance / stretch
-            table = star_table(shape.contour.outline, share)
-            section = StarSection(table)
-        return Cylinder(parts, hessian_bounds(parts, section), table, outline, cuts), []
+        parts, outlines = [], []
+        for shape in shapes:
+            check_closing(shape)
+            part, outline = _part(shape, tolerance)
+            parts.append(part)
+            outlines.append(outline)
+        return Cylinder(tuple(parts), np.concatenate(outlines), cuts), []
     except RefusalError as refusal:
         return None, [refusal.problem]
 
 
-def _outline(shape: SweptShape, knots: Floats) -> tuple[Floats, float]:
+def _part(shape: Shape, tolerance: float) -> tuple[Part, Floats]:
+    """Cut a shape into segments, tabulate its contour and bound what the tracing needs."""
+    cut = segments(shape, tolerance)
+    outline, stretch = _outline(shape, cut.knots)
+    share = (1 - tolerances.FIT_SHARE) * tolerance / stretch
+    if isinstance(shape, ChangingShape):
+        tables = changing_tables(shape, cut.knots, share)
+        bounds = hessian_bounds(cut, [ChangingSection(table) for table in tables])
+        return Part(cut, bounds, tuple(tables)), outline
+    count = len(cut.origins)
+    if shape.contour.outline is None:
+        return Part(cut, hessian_bounds(cut, CircleSection()), (None,) * count), outline
+    table = star_table(shape.contour.outline, share)
+    return Part(cut, hessian_bounds(cut, StarSection(table)), (table,) * count), outline
+
+
+def _outline(shape: Shape, knots: Floats) -> tuple[Floats, float]:
     """Sample the surface, and find the largest stretch from unit coordinates to mm."""
     fractions = np.linspace(0, 1, 9)
     u = (knots[:-1, None] + fractions * np.diff(knots)[:, None]).ravel()
@@ -108,7 +135,8 @@ def _outline(shape: SweptShape, knots: Floats) -> tuple[Floats, float]:
         np.searchsorted(shape.curve.breaks, u, side="right") - 1, 0, len(shape.curve.breaks) - 2
     )
     at = shape.sections(u, piece)
-    phi = shape.contour.unit_points(64)
-    points = at.middle[:, None] + np.einsum("nij,vj->nvi", at.spread, phi)
+    phi = shape.hull(u, 64)
+    phi = np.broadcast_to(phi, (len(u), *phi.shape[1:]))
+    points = at.middle[:, None] + np.einsum("nij,nvj->nvi", at.spread, phi)
     stretch = float(np.linalg.norm(at.spread, ord=2, axis=(1, 2)).max())
     return points.reshape(-1, 3), stretch

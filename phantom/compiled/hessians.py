@@ -15,13 +15,15 @@ is traced, not for an ideal one.
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from phantom.compiled.changing import ChangingSection
 from phantom.compiled.intervals import Interval, dot
 from phantom.compiled.layout import CELLS
-from phantom.compiled.sections import Section
+from phantom.compiled.sections import Section, SectionBounds
 from phantom.compiled.segments import Segments
 from phantom.geometry.polynomials import DEGREE, bernstein_matrix, derivative
 
@@ -35,21 +37,41 @@ PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 """Entries of the Hessian along the box axes e1, e2, t, in stored order."""
 
 
-def hessian_bounds(segments: Segments, section: Section) -> Floats:
-    """Return bounds of the Hessian of G along the box axes, per mm^2.
+@dataclass(frozen=True)
+class Bounds:
+    """What bounds the second derivative of G along any ray, by cell of a segment's box.
 
-    The shape is ``(K, CELLS, CELLS, 6, 2)``: a cell holds for all points of the segment whose
-    coordinates along e1 and e2 lie in it.
+    A cell holds for all points of the segment whose coordinates along e1 and e2 lie in it.
+    """
+
+    hessians: Floats  # (K, CELLS, CELLS, 6, 2) entries along the box axes, per mm^2
+    kinks: Floats  # (K, CELLS, CELLS, 3) jumps of the slope per mm: up, down; and 1/mm
+
+    def scaled(self, scale: float) -> Bounds:
+        """Return the bounds of a solid ``scale`` times as large."""
+        return Bounds(self.hessians / scale**2, self.kinks / scale)
+
+
+def hessian_bounds(segments: Segments, section: Section | list[ChangingSection]) -> Bounds:
+    """Bound a part's segments; a contour that changes along them has a section for each.
+
+    A ray crosses the ray of a corner once or, where its image in the contour plane bends, more
+    often; then by Rolle each crossing is slower than the bend times the way to the next. The jumps
+    of the slope over a length s therefore stay below ``kinks[..., :2] max(1, kinks[..., 2] s)``.
     """
     count = len(segments.origins)
-    result = np.empty((count, CELLS, CELLS, 6, 2))
-    for first in range(0, count, _BATCH):
-        chosen = slice(first, min(first + _BATCH, count))
-        result[chosen] = _batch(segments, section, chosen)
+    result = Bounds(np.empty((count, CELLS, CELLS, 6, 2)), np.zeros((count, CELLS, CELLS, 3)))
+    step = 1 if isinstance(section, list) else _BATCH
+    for first in range(0, count, step):
+        chosen = slice(first, min(first + step, count))
+        one = section[first] if isinstance(section, list) else section
+        _batch(segments, one, chosen, result)
     return result
 
 
-def _batch(segments: Segments, section: Section, chosen: slice) -> Floats:
+def _batch(
+    segments: Segments, section: Section | ChangingSection, chosen: slice, result: Bounds
+) -> None:
     polynomials = segments.polynomials[chosen]
     axes, boxes = segments.axes[chosen], segments.boxes[chosen]
     local = polynomials.copy()
@@ -83,27 +105,59 @@ def _batch(segments: Segments, section: Section, chosen: slice) -> Floats:
         )
     h = section.over(phi[0], phi[1])
     g = gradients
-    bounds = np.empty((len(axes), CELLS, CELLS, 6, 2))
+    bounds = result.hessians[chosen]
     for index, (a, c) in enumerate(PAIRS):
         if a == c:
-            quadratic = (
+            entry = (
                 h.hessian[0] * g[0][a].squared()
                 + h.hessian[1] * (g[0][a] * g[1][a]) * 2.0
                 + h.hessian[2] * g[1][a].squared()
             )
         else:
-            quadratic = (
+            entry = (
                 h.hessian[0] * (g[0][a] * g[0][c])
                 + h.hessian[1] * (g[0][a] * g[1][c] + g[0][c] * g[1][a])
                 + h.hessian[2] * (g[1][a] * g[1][c])
             )
-        entry = quadratic + h.gradient[0] * hessians[0][index] + h.gradient[1] * hessians[1][index]
+        entry = entry + h.gradient[0] * hessians[0][index] + h.gradient[1] * hessians[1][index]
+        if h.along is not None:
+            # tau(x) has gradient N / J, and its Hessian comes from J tau' = N.d once more.
+            h_t, h_xt, h_yt, h_tt = h.along
+            t_a, t_c = n0[a] * over_j, n0[c] * over_j
+            turn = (n1[a] * n0[c] + n1[c] * n0[a]) * over_j.squared()
+            turn = turn - bend * (n0[a] * n0[c]) * (over_j.squared() * over_j)
+            entry = (
+                entry
+                + h_xt * (g[0][a] * t_c + g[0][c] * t_a)
+                + h_yt * (g[1][a] * t_c + g[1][c] * t_a)
+                + h_tt * (t_a * t_c)
+                + h_t * turn
+            )
         bounds[..., index, 0] = entry.low.min(axis=1)
         bounds[..., index, 1] = entry.high.max(axis=1)
     slack = _WIDEN * np.abs(bounds).max(axis=(-2, -1))[..., None]
     bounds[..., 0] -= slack
     bounds[..., 1] += slack
-    return bounds
+    if np.ndim(h.up) or np.ndim(h.down):
+        result.kinks[chosen] = _kinks(h, g, hessians)
+
+
+def _kinks(
+    h: SectionBounds, gradients: list[list[Interval]], hessians: list[list[Interval]]
+) -> Floats:
+    """Jumps of the slope, from the speed and the bend of the ray's image in the contour plane."""
+    speed2: Floats | float = 0.0
+    bend2: Floats | float = 0.0
+    for gradient, hessian in zip(gradients, hessians, strict=True):
+        for entry in gradient:
+            speed2 = speed2 + entry.squared().high
+        for index, entry in enumerate(hessian):
+            bend2 = bend2 + (1.0 if index < 3 else 2.0) * entry.squared().high
+    speed, bend = np.sqrt(speed2), np.sqrt(bend2)
+    up = (h.up * speed * np.ones_like(bend)).max(axis=1)
+    down = (h.down * speed * np.ones_like(bend)).max(axis=1)
+    growth = (2.0 * bend / speed).max(axis=1)
+    return np.stack(np.broadcast_arrays(up, down, growth), axis=-1) * (1 + _WIDEN)
 
 
 def _tau_ranges(polynomials: Floats) -> tuple[Floats, Floats]:

@@ -18,8 +18,22 @@ CELLS = 8
 """Bounds of second derivatives are kept on this many cells along each side of a segment's box."""
 
 
+class Tables(NamedTuple):
+    """Contours by the pseudo-angle: the fixed ones first, then those that change along a segment.
+
+    Table i has the cells ``first_cell[i] : first_cell[i + 1]`` and one edge more.
+    """
+
+    first_cell: Ints  # (tables + 1,)
+    edges: Floats  # (all cells + tables,) in T
+    first_bucket: Ints  # (tables + 1,)
+    buckets: Ints  # the cell in which each bucket of the pseudo-angle begins
+    cells: Floats  # (fixed cells, 6) powers of the local coordinate
+    tensors: Floats  # (changing cells, 6, 7) powers of the local coordinate and of tau
+
+
 class Scene(NamedTuple):
-    """L leaves, S segments of generalized cylinders, a binary tree of operators.
+    """L leaves, P parts of generalized cylinders, S segments, a binary tree of operators.
 
     Every leaf has its own origin (``leaf_center``), about which its planes, form and segments are
     given, so that coordinates stay small however far away the solid is.
@@ -30,22 +44,20 @@ class Scene(NamedTuple):
     leaf_box: Floats  # (L, 2, 3) mm, about the world's origin
     leaf_material: Ints  # (L,) channel, -1 where it never surfaces
     leaf_form: Ints  # (L,) row of forms, or -1
-    leaf_table: Ints  # (L,) contour table, -1 for circles and for quadrics
     first_plane: Ints  # (L + 1,) rows of planes
-    planes: Floats  # (P, 4) cuts n.x <= h
+    planes: Floats  # (planes, 4) cuts n.x <= h
     forms: Floats  # (Q, 10) A00 A11 A22 A01 A02 A12 b0 b1 b2 c
-    first_segment: Ints  # (L + 1,) rows of the segment arrays
-    knots: Floats  # (S + L, 4) section planes; leaf i's start at first_segment[i] + i
+    first_part: Ints  # (L + 1,) star-shaped parts of a leaf's contour; quadrics have none
+    first_segment: Ints  # (P + 1,) rows of the segment arrays
+    knots: Floats  # (S + P, 4) section planes; those of part p begin at first_segment[p] + p
     origins: Floats  # (S, 3)
     polynomials: Floats  # (S, 12, 7)
     axes: Floats  # (S, 3, 3)
     boxes: Floats  # (S, 3, 2)
     hessians: Floats  # (S, CELLS, CELLS, 6, 2) by cell along e1 and e2
-    first_cell: Ints  # (tables + 1,)
-    edges: Floats  # cells + 1 numbers a table
-    cells: Floats  # (C, 6)
-    first_bucket: Ints  # (tables + 1,)
-    buckets: Ints  # the cell in which each bucket of the pseudo-angle begins
+    kinks: Floats  # (S, CELLS, CELLS, 3) jumps of the slope: up, down, growth per mm
+    segment_table: Ints  # (S,) contour table, -1 for circles
+    tables: Tables
     parent: Ints  # (nodes,) -1 at the root; nodes 0 .. L - 1 are the leaves
     operator: Ints  # (nodes,) of inner nodes
     left: Ints  # (nodes,)
@@ -54,7 +66,13 @@ class Scene(NamedTuple):
 
 def frozen(scene: Scene) -> Scene:
     """Return the scene with every array contiguous and read-only."""
-    arrays: list[Any] = [np.ascontiguousarray(array) for array in scene]
-    for array in arrays:
-        array.setflags(write=False)
+    arrays: list[Any] = [
+        Tables(*map(_fixed, part)) if isinstance(part, Tables) else _fixed(part) for part in scene
+    ]
     return Scene(*arrays)
+
+
+def _fixed(array: Any) -> Any:
+    array = np.ascontiguousarray(array)
+    array.setflags(write=False)
+    return array

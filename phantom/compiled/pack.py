@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.compiled.cylinders import Cylinder
-from phantom.compiled.layout import CELLS, Scene, frozen
+from phantom.compiled.changing import ChangingTable
+from phantom.compiled.cylinders import Cylinder, Part
+from phantom.compiled.layout import CELLS, Scene, Tables, frozen
 from phantom.compiled.tables import StarTable
 from phantom.compiled.tree import Tree
 from phantom.geometry.quadrics import QuadricShape
@@ -29,17 +30,9 @@ class PlacedLeaf:
 
 def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
     """Lay out leaves and operators; ``boxes`` are the leaves' tight boxes ``(L, 2, 3)``."""
-    planes, forms, knots = [np.zeros((0, 4))], [np.zeros((0, 10))], [np.zeros((0, 4))]
-    parts: dict[str, list[Floats]] = {
-        "origins": [np.zeros((0, 3))],
-        "polynomials": [np.zeros((0, 12, 7))],
-        "axes": [np.zeros((0, 3, 3))],
-        "boxes": [np.zeros((0, 3, 2))],
-        "hessians": [np.zeros((0, CELLS, CELLS, 6, 2))],
-    }
-    tables: dict[int, tuple[int, StarTable]] = {}
-    plane_counts, segment_counts, form_rows, table_rows = [], [], [], []
-    centers, world_boxes = [], []
+    planes, forms = [np.zeros((0, 4))], [np.zeros((0, 10))]
+    plane_counts, part_counts, form_rows, centers, world_boxes = [], [], [], [], []
+    parts: list[tuple[Part, Floats]] = []
     for leaf, box in zip(leaves, boxes, strict=True):
         shape = leaf.shape
         assert shape is not None
@@ -54,32 +47,15 @@ def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
         planes.append(np.column_stack([shape.planes.normals, offsets]))
         plane_counts.append(len(offsets))
         if isinstance(shape, QuadricShape):
-            segment_counts.append(0)
-            table_rows.append(-1)
+            part_counts.append(0)
             form_rows.append(-1 if shape.form is None else sum(len(f) for f in forms))
             if shape.form is not None:
                 forms.append(_form(shape, center))
-            continue
-        form_rows.append(-1)
-        cut = shape.segments
-        segment_counts.append(len(cut.origins))
-        knots.append(
-            np.column_stack([cut.planes[:, :3], cut.planes[:, 3] - cut.planes[:, :3] @ center])
-        )
-        parts["origins"].append(cut.origins - center)
-        parts["polynomials"].append(cut.polynomials)
-        parts["axes"].append(cut.axes)
-        parts["boxes"].append(cut.boxes)
-        parts["hessians"].append(shape.hessians)
-        if shape.table is None:
-            table_rows.append(-1)
         else:
-            row, _ = tables.setdefault(id(shape.table), (len(tables), shape.table))
-            table_rows.append(row)
-        # Generalized cylinders have a knot more than segments; a quadric's place is left empty.
+            form_rows.append(-1)
+            part_counts.append(len(shape.parts))
+            parts += [(part, center) for part in shape.parts]
     world = np.array(world_boxes)
-    joined: dict[str, Any] = {name: np.concatenate(values) for name, values in parts.items()}
-    joined |= _tables([table for _, table in tables.values()])
     return frozen(
         Scene(
             leaf_center=np.array(centers),
@@ -87,13 +63,11 @@ def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
             leaf_box=world,
             leaf_material=np.array([leaf.material for leaf in leaves], dtype=np.int64),
             leaf_form=np.array(form_rows, dtype=np.int64),
-            leaf_table=np.array(table_rows, dtype=np.int64),
             first_plane=_starts(plane_counts),
             planes=np.concatenate(planes),
             forms=np.concatenate(forms),
-            first_segment=_starts(segment_counts),
-            knots=_knots(knots[1:], segment_counts),
-            **joined,
+            first_part=_starts(part_counts),
+            **_segments(parts),
             parent=np.array(tree.parent, dtype=np.int64),
             operator=np.array(tree.operator, dtype=np.int64),
             left=np.array(tree.left, dtype=np.int64),
@@ -102,16 +76,48 @@ def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
     )
 
 
+def _segments(parts: list[tuple[Part, Floats]]) -> dict[str, Any]:
+    """Lay out the segments of all parts, each about its leaf's centre, and their tables."""
+    columns: dict[str, list[Floats]] = {
+        "knots": [np.zeros((0, 4))],
+        "origins": [np.zeros((0, 3))],
+        "polynomials": [np.zeros((0, 12, 7))],
+        "axes": [np.zeros((0, 3, 3))],
+        "boxes": [np.zeros((0, 3, 2))],
+        "hessians": [np.zeros((0, CELLS, CELLS, 6, 2))],
+        "kinks": [np.zeros((0, CELLS, CELLS, 3))],
+    }
+    fixed: dict[int, tuple[int, StarTable]] = {}
+    changing: list[ChangingTable] = []
+    owners: list[tuple[bool, int]] = []
+    for part, center in parts:
+        cut = part.segments
+        offsets = cut.planes[:, 3] - cut.planes[:, :3] @ center
+        columns["knots"].append(np.column_stack([cut.planes[:, :3], offsets]))
+        columns["origins"].append(cut.origins - center)
+        columns["polynomials"].append(cut.polynomials)
+        columns["axes"].append(cut.axes)
+        columns["boxes"].append(cut.boxes)
+        columns["hessians"].append(part.bounds.hessians)
+        columns["kinks"].append(part.bounds.kinks)
+        for table in part.tables:
+            if isinstance(table, StarTable):
+                owners.append((True, fixed.setdefault(id(table), (len(fixed), table))[0]))
+            elif table is None:
+                owners.append((True, -1))
+            else:
+                owners.append((False, len(changing)))
+                changing.append(table)
+    rows = [index if known else len(fixed) + index for known, index in owners]
+    result: dict[str, Any] = {name: np.concatenate(column) for name, column in columns.items()}
+    result["first_segment"] = _starts([len(part.segments.origins) for part, _ in parts])
+    result["segment_table"] = np.array(rows, dtype=np.int64)
+    result["tables"] = _tables([table for _, table in fixed.values()], changing)
+    return result
+
+
 def _starts(counts: list[int]) -> NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
-
-
-def _knots(knots: list[Floats], segment_counts: list[int]) -> Floats:
-    """One row more than segments for every leaf, quadrics too: leaf i starts at its segment + i."""
-    rows, given = [], iter(knots)
-    for count in segment_counts:
-        rows.append(next(given) if count else np.zeros((1, 4)))
-    return np.concatenate(rows)
 
 
 def _form(shape: QuadricShape, center: Floats) -> Floats:
@@ -123,23 +129,24 @@ def _form(shape: QuadricShape, center: Floats) -> Floats:
     return np.array([[a[0, 0], a[1, 1], a[2, 2], a[0, 1], a[0, 2], a[1, 2], b[0], b[1], b[2], c]])
 
 
-def _tables(tables: list[StarTable]) -> dict[str, NDArray[np.float64] | NDArray[np.int64]]:
-    cells, edges, buckets = [np.zeros((0, 6))], [np.zeros(0)], []
+def _tables(fixed: list[StarTable], changing: list[ChangingTable]) -> Tables:
+    edges, buckets = [np.zeros(0)], [np.zeros(0)]
     cell_counts, bucket_counts = [], []
     first = 0
+    tables: list[StarTable | ChangingTable] = [*fixed, *changing]
     for table in tables:
         count = min(_MAX_BUCKETS, 2 ** int(np.ceil(np.log2(2 * len(table.cells)))))
         marks = 8.0 * np.arange(count) / count
-        buckets.append(first + np.searchsorted(table.edges, marks, side="right") - 1)
-        cells.append(table.cells)
+        buckets.append(first + np.searchsorted(table.edges, marks, side="right") - 1.0)
         edges.append(table.edges)
         cell_counts.append(len(table.cells))
         bucket_counts.append(count)
         first += len(table.cells)
-    return {
-        "first_cell": _starts(cell_counts),
-        "edges": np.concatenate(edges),
-        "cells": np.concatenate(cells),
-        "first_bucket": _starts(bucket_counts),
-        "buckets": np.concatenate([np.zeros(0), *buckets]).astype(np.int64),
-    }
+    return Tables(
+        first_cell=_starts(cell_counts),
+        edges=np.concatenate(edges),
+        first_bucket=_starts(bucket_counts),
+        buckets=np.concatenate(buckets).astype(np.int64),
+        cells=np.concatenate([np.zeros((0, 6)), *(table.cells for table in fixed)]),
+        tensors=np.concatenate([np.zeros((0, 6, 7)), *(table.cells for table in changing)]),
+    )

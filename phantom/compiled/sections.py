@@ -32,10 +32,17 @@ _LEVELS = 6
 
 @dataclass(frozen=True)
 class SectionBounds:
-    """Ranges of h's gradient (x, y) and Hessian (xx, xy, yy)."""
+    """Ranges of h's gradient (x, y) and Hessian (xx, xy, yy); of tau's where h changes along u.
+
+    ``along`` holds h_tau, h_x_tau, h_y_tau and h_tau_tau; ``up`` and ``down`` bound the sums of the
+    jumps of the slope at the corners a rectangle touches, per unit of |d phi|.
+    """
 
     gradient: tuple[Interval, Interval]
     hessian: tuple[Interval, Interval, Interval]
+    along: tuple[Interval, Interval, Interval, Interval] | None = None
+    up: Floats | float = 0.0
+    down: Floats | float = 0.0
 
 
 class Section(Protocol):
@@ -58,18 +65,51 @@ class StarSection:
     """h of a star-shaped contour, from bounds of its Hessian on a grid of squares."""
 
     def __init__(self, table: StarTable) -> None:
-        edges = np.linspace(-_REACH, _REACH, _GRID + 1)
-        x = Interval(*_pair(edges[:-1, None], edges[1:, None]))
-        y = Interval(*_pair(edges[None, :-1], edges[None, 1:]))
-        ranges = _hessian_ranges(table, x, y)
-        low, high = np.stack([r.low for r in ranges]), np.stack([r.high for r in ranges])
-        self._pyramid = _pyramid(low, high)
-        self._all = [Interval(a.min(), b.max()) for a, b in zip(low, high, strict=True)]
+        self._grid = HessianGrid(table.edges, derivative_ranges(table))
+        self._kinks = table.kinks
 
     def over(self, x: Interval, y: Interval) -> SectionBounds:
         """Take the hull of the squares that each rectangle touches."""
+        hessian, gradient, _ = self._grid.over(x, y)
+        up, down = kink_bounds(self._kinks, x, y)
+        return SectionBounds(gradient, hessian, None, up, down)
+
+
+def kink_bounds(kinks: Floats, x: Interval, y: Interval) -> tuple[Floats | float, Floats | float]:
+    """Sums of the jumps up and down at the corners whose rays the rectangles touch, times |phi|."""
+    up: Floats | float = 0.0
+    down: Floats | float = 0.0
+    for T, rise, fall in kinks:
+        chart, t = min(int(T // 2), 3), T - 2.0 * min(int(T // 2), 3) - 1.0
+        ray = np.array([[1.0, t], [-t, 1.0], [-1.0, -t], [t, -1.0]])[chart] / np.hypot(1.0, t)
+        along, across = x * ray[0] + y * ray[1], y * ray[0] - x * ray[1]
+        touched = (across.low <= 1e-12) & (across.high >= -1e-12) & (along.high >= 0)
+        size = np.where(touched, np.maximum(along.high, 0.0), 0.0)
+        up = up + rise * size
+        down = down + fall * size
+    return up, down
+
+
+class HessianGrid:
+    """Bounds of the Hessian of ``X^2 g(t)`` over rectangles, for a tabulated g."""
+
+    def __init__(self, table_edges: Floats, ranges: tuple[Floats, Floats, Floats]) -> None:
+        edges = np.linspace(-_REACH, _REACH, _GRID + 1)
+        x = Interval(*_pair(edges[:-1, None], edges[1:, None]))
+        y = Interval(*_pair(edges[None, :-1], edges[None, 1:]))
+        found = _hessian_ranges(table_edges, ranges, x, y)
+        low, high = np.stack([r.low for r in found]), np.stack([r.high for r in found])
+        self._pyramid = _pyramid(low, high)
+        self._all = [Interval(a.min(), b.max()) for a, b in zip(low, high, strict=True)]
+
+    def over(
+        self, x: Interval, y: Interval
+    ) -> tuple[tuple[Interval, Interval, Interval], tuple[Interval, Interval], Interval]:
+        """Return ranges of the Hessian, of the gradient (Hessian phi) and of the value (Euler)."""
         h_xx, h_xy, h_yy = (self._lookup(k, x, y) for k in range(3))
-        return SectionBounds((h_xx * x + h_xy * y, h_xy * x + h_yy * y), (h_xx, h_xy, h_yy))
+        gradient = (h_xx * x + h_xy * y, h_xy * x + h_yy * y)
+        value = (h_xx * x.squared() + h_xy * (x * y) * 2.0 + h_yy * y.squared()) * 0.5
+        return (h_xx, h_xy, h_yy), gradient, value
 
     def _lookup(self, k: int, x: Interval, y: Interval) -> Interval:
         (low_x, high_x, level_x), (low_y, high_y, level_y) = _span(x), _span(y)
@@ -123,7 +163,9 @@ def _shifted(values: Floats, step: int, axis: int) -> Floats:
     return np.asarray(np.take(values, index, axis=axis))
 
 
-def _hessian_ranges(table: StarTable, x: Interval, y: Interval) -> list[Interval]:
+def _hessian_ranges(
+    edges: Floats, ranges: tuple[Floats, Floats, Floats], x: Interval, y: Interval
+) -> list[Interval]:
     """Ranges of h_xx, h_xy and h_yy over squares."""
     low = [np.full(x.low.shape, np.inf) for _ in range(3)]
     high = [np.full(x.low.shape, -np.inf) for _ in range(3)]
@@ -139,7 +181,7 @@ def _hessian_ranges(table: StarTable, x: Interval, y: Interval) -> list[Interval
         t_low = np.where(positive, t_low, np.where(minor.low < 0, -1.0, minor.low / far))
         t_high = np.where(positive, t_high, np.where(minor.high > 0, 1.0, minor.high / far))
         t = Interval(t_low, t_high).clipped(-1.0, 1.0)
-        g, g1, g2 = _table_ranges(table, t, chart)
+        g, g1, g2 = _table_ranges(edges, ranges, t, chart)
         h_aa = g * 2.0 - t * g1 * 2.0 + t.squared() * g2
         h_ab = g1 - t * g2
         # Turn the chart back: odd charts exchange the axes.
@@ -150,19 +192,21 @@ def _hessian_ranges(table: StarTable, x: Interval, y: Interval) -> list[Interval
     return [Interval(a, b) for a, b in zip(low, high, strict=True)]
 
 
-def _table_ranges(table: StarTable, t: Interval, chart: int) -> list[Interval]:
+def _table_ranges(
+    edges: Floats, tabulated: tuple[Floats, Floats, Floats], t: Interval, chart: int
+) -> list[Interval]:
     """Ranges of g, g' and g'' over ranges of t on one chart."""
-    count = len(table.cells)
+    count = len(edges) - 1
     base = 2.0 * chart + 1.0
     # A hair wider than asked: a point on an edge counts for the cells on both of its sides.
-    first = np.searchsorted(table.edges, base + t.low - 1e-12, side="right") - 1
-    last = np.searchsorted(table.edges, base + t.high + 1e-12, side="left") - 1
-    start = int(np.searchsorted(table.edges, base - 1.0 + 1e-12, side="right")) - 1
-    end = int(np.searchsorted(table.edges, base + 1.0 - 1e-12, side="left")) - 1
+    first = np.searchsorted(edges, base + t.low - 1e-12, side="right") - 1
+    last = np.searchsorted(edges, base + t.high + 1e-12, side="left") - 1
+    start = int(np.searchsorted(edges, base - 1.0 + 1e-12, side="right")) - 1
+    end = int(np.searchsorted(edges, base + 1.0 - 1e-12, side="left")) - 1
     first, last = np.clip(first, start, end), np.clip(last, start, end)
     level = np.floor(np.log2(last - first + 1)).astype(np.intp)
     results = []
-    for ranges in derivative_ranges(table):
+    for ranges in tabulated:
         low, high = [ranges[:, 0]], [ranges[:, 1]]
         for k in range(1, int(level.max()) + 1):
             shifted = np.minimum(np.arange(count) + 2 ** (k - 1), count - 1)

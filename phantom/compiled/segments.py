@@ -31,7 +31,7 @@ from phantom.geometry.polynomials import (
     lobatto_nodes,
 )
 from phantom.geometry.refusal import RefusalError
-from phantom.geometry.swept import Sections, SweptShape
+from phantom.geometry.swept import Sections, Shape
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -75,7 +75,7 @@ class _Candidates:
         return _Candidates(**{f.name: getattr(self, f.name)[keep] for f in fields(self)})
 
 
-def segments(shape: SweptShape, tolerance_mm: float) -> Segments:
+def segments(shape: Shape, tolerance_mm: float) -> Segments:
     """Cut a shape into accepted segments.
 
     Raises
@@ -85,14 +85,13 @@ def segments(shape: SweptShape, tolerance_mm: float) -> Segments:
         tolerance, with u and the figure.
     """
     check_local_overlap(shape)
-    hull = shape.contour.unit_points(_HULL_POINTS)
     breaks = shape.breaks
     pieces = shape.pieces(breaks)
     start, end, piece = breaks[:-1], breaks[1:], pieces
     accepted: list[_Candidates] = []
     total = 0
     for _ in range(60):
-        trial = _fit(shape, hull, start, end, piece)
+        trial = _fit(shape, start, end, piece)
         good = (
             (trial.error_mm <= tolerance_mm * tolerances.FIT_SHARE)
             & (trial.body_margin >= -1e-7)
@@ -120,7 +119,7 @@ def segments(shape: SweptShape, tolerance_mm: float) -> Segments:
     )
 
 
-def check_local_overlap(shape: SweptShape) -> None:
+def check_local_overlap(shape: Shape) -> None:
     """Refuse a section that reaches the centre of curvature: 1 - kappa n.s <= 0 somewhere."""
     breaks = shape.breaks
     pieces = shape.pieces(breaks)
@@ -139,9 +138,9 @@ def check_local_overlap(shape: SweptShape) -> None:
             f"the section at u = {u.ravel()[int(np.argmin(thin))]:.6g} is {thin.min():.3g} mm "
             f"thin; expected at least {tolerances.SMALLEST_SECTION_MM:g} mm",
         )
-    hull = shape.contour.unit_points(_HULL_POINTS)
+    hull = shape.hull(u.ravel(), _HULL_POINTS)
     reach = np.einsum("ni,ni->n", at.middle - at.axis, curvature) + _support(
-        hull, np.einsum("nij,ni->nj", at.spread, curvature), shape.contour.outline is None
+        hull, np.einsum("nij,ni->nj", at.spread, curvature), shape.is_circle
     )
     worst = int(np.argmax(reach))
     if reach[worst] >= 1:
@@ -156,13 +155,18 @@ def check_local_overlap(shape: SweptShape) -> None:
 
 
 def _support(hull: Floats, directions: Floats, is_circle: bool) -> Floats:
-    """Return the largest ``direction . phi`` over the unit contour, rounded up."""
+    """Return the largest ``direction . phi`` over the unit contour, rounded up.
+
+    ``hull`` is ``(n or 1, P, 2)``, ``directions`` ``(n, ..., 2)``.
+    """
     if is_circle:
         return np.asarray(np.linalg.norm(directions, axis=-1))
-    return np.asarray((directions @ hull.T).max(axis=-1) * _HULL_MARGIN)
+    flat = directions.reshape(len(directions), -1, 2)
+    reach = (flat @ np.swapaxes(hull, 1, 2)).max(axis=-1) * _HULL_MARGIN
+    return np.asarray(reach.reshape(directions.shape[:-1]))
 
 
-def _fit(shape: SweptShape, hull: Floats, start: Floats, end: Floats, piece: Ints) -> _Candidates:
+def _fit(shape: Shape, start: Floats, end: Floats, piece: Ints) -> _Candidates:
     """Fit a batch of segments and measure what decides on them."""
     count, nodes = len(start), lobatto_nodes()
     middle, half = 0.5 * (start + end), 0.5 * (end - start)
@@ -184,14 +188,30 @@ def _fit(shape: SweptShape, hull: Floats, start: Floats, end: Floats, piece: Int
         axis=-1,
     )
     polynomials = np.einsum("pn,knv->kvp", interpolation_matrix(), values)
+    hull = _hulls(shape, start, end)
     body = _body(at, origins, grid)
     axes = _axes(at, grid)
-    is_circle = shape.contour.outline is None
+    is_circle = shape.is_circle
     boxes = _boxes(body, axes, hull, is_circle)
     margin = _body_margin(body, values, hull, is_circle)
-    error = _displacement(shape, hull, start, end, piece, origins, polynomials)
+    error = _displacement(shape, start, end, piece, origins, polynomials)
     j_min = _smallest_j(polynomials, axes, boxes, values)
     return _Candidates(start, end, piece, origins, polynomials, axes, boxes, error, margin, j_min)
+
+
+def _hulls(shape: Shape, start: Floats, end: Floats) -> Floats:
+    """Points whose hull holds the contour over the whole of each segment, ``(K or 1, P, 2)``."""
+    fractions = np.linspace(0.0, 1.0, 5)
+    u = start[:, None] + fractions * (end - start)[:, None]
+    points = shape.hull(u.ravel(), _HULL_POINTS)
+    if len(points) == 1:
+        return points
+    # Between the samples a changing contour may bulge: twice what it moves from one to the next.
+    sampled = points.reshape(len(start), len(fractions), -1, 2)
+    moved = np.linalg.norm(np.diff(sampled, axis=1), axis=-1).max(axis=(1, 2))
+    size = np.linalg.norm(sampled, axis=-1).max(axis=(1, 2))
+    grown = sampled * (1 + 2 * moved / size)[:, None, None, None]
+    return np.asarray(grown.reshape(len(start), -1, 2))
 
 
 def _plane_and_map(
@@ -260,8 +280,7 @@ def _body_margin(
 
 
 def _displacement(
-    shape: SweptShape,
-    hull: Floats,
+    shape: Shape,
     start: Floats,
     end: Floats,
     piece: Ints,
@@ -272,10 +291,12 @@ def _displacement(
     count = len(start)
     u = 0.5 * (start + end)[:, None] + 0.5 * (end - start)[:, None] * _CHECKS
     at = shape.sections(u.ravel(), np.repeat(piece, len(_CHECKS)))
-    phi = hull[:: max(1, len(hull) // 16)]
+    phi = shape.hull(u.ravel(), 16)
+    phi = np.broadcast_to(phi, (count * len(_CHECKS), *phi.shape[1:]))
+    phi = phi.reshape(count, len(_CHECKS), -1, 2)
     spread = at.spread.reshape(count, len(_CHECKS), 3, 2)
     middle = at.middle.reshape(count, len(_CHECKS), 3) - origins[:, None]
-    x = middle[:, :, None] + np.einsum("knij,vj->knvi", spread, phi)
+    x = middle[:, :, None] + np.einsum("knij,knvj->knvi", spread, phi)
     tau = np.broadcast_to(_CHECKS[None, :, None], x.shape[:3])
     slopes = derivative(polynomials)
 
@@ -289,7 +310,7 @@ def _displacement(
     tau = tau - at_tau(polynomials, 0) / at_tau(slopes, 0)
     traced = np.stack([at_tau(polynomials, 4), at_tau(polynomials, 8)], axis=-1)
     off = np.einsum("knij,knvj->knvi", spread, traced - phi)
-    distance = np.linalg.norm(off, axis=-1).max(axis=(1, 2))
+    distance = np.linalg.norm(off, axis=-1).max(axis=(1, 2)) + shape.fit_error(start, end)
     return np.asarray(np.where(np.isfinite(distance), distance, np.inf))
 
 
@@ -320,7 +341,7 @@ def _smallest_j(polynomials: Floats, axes: Floats, boxes: Floats, values: Floats
     return np.asarray(np.where(usable[..., None], j, np.inf).min(axis=(1, 2)))
 
 
-def _assemble(shape: SweptShape, batches: list[_Candidates]) -> Segments:
+def _assemble(shape: Shape, batches: list[_Candidates]) -> Segments:
     """Put the accepted segments in order and store each shared plane once."""
     start = np.concatenate([b.start for b in batches])
     order = np.argsort(start)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from phantom.geometry.outlines import Outline
 from phantom.geometry.polynomials import bernstein_matrix, derivative, evaluate
 from phantom.geometry.refusal import RefusalError
-from phantom.geometry.star import gauge, monotone_cells
+from phantom.geometry.star import gauge, kinks, monotone_cells
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -30,6 +30,7 @@ class StarTable:
 
     edges: Floats  # (cells + 1,) in T, from 0 to 8
     cells: Floats  # (cells, 6) powers of the local coordinate in [-1, 1]
+    kinks: Floats  # (k, 3) T of each corner, the jump of h's slope there up and down
 
 
 def star_table(outline: Outline, tolerance: float) -> StarTable:
@@ -68,7 +69,9 @@ def star_table(outline: Outline, tolerance: float) -> StarTable:
     low = np.concatenate([d[0] for d in done])
     order = np.argsort(low)
     cells = np.concatenate([d[1] for d in done])[order]
-    return StarTable(np.append(low[order], 8.0), cells)
+    at, jump = kinks(outline).T
+    corners = np.stack([at, np.maximum(jump, 0.0), np.maximum(-jump, 0.0)], axis=-1)
+    return StarTable(np.append(low[order], 8.0), cells, corners)
 
 
 def _hermite_matrix() -> Floats:

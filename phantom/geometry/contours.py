@@ -10,13 +10,16 @@ from scipy.interpolate import CubicSpline
 
 from phantom import document as doc
 from phantom.geometry.outlines import (
+    CircleOutline,
     Outline,
     PlacedOutline,
     PolarOutline,
     RoundedOutline,
+    ScaledOutline,
     SplineOutline,
     SuperellipseOutline,
 )
+from phantom.geometry.partition import star_parts
 from phantom.geometry.refusal import RefusalError
 
 Floats = NDArray[np.float64]
@@ -64,38 +67,56 @@ def outline_samples(outline: Outline, count: int) -> Floats:
     return outline.derivatives(v.ravel(), piece)
 
 
-def contour(spec: doc.Contour) -> Contour:
-    """Turn a contour of a document into its star-shaped form, or refuse it.
+def contours(spec: doc.Contour) -> tuple[Contour, ...]:
+    """Turn a contour of a document into star-shaped parts: one, unless no point sees it whole.
 
     Raises
     ------
     RefusalError
-        Below ``/contour``: arcs that do not fit, a curve that crosses itself, or one that is not
-        star-shaped about any point.
+        Below ``/contour``: arcs that do not fit, a curve that crosses itself or is not closed.
     """
     match spec:
         case doc.CircleContour():
-            return Contour(np.eye(2) * spec.radius, np.zeros(2), None)
+            return (Contour(np.eye(2) * spec.radius, np.zeros(2), None),)
         case doc.EllipseContour():
-            return Contour(np.diag(np.array(spec.semi_axes, dtype=np.float64)), np.zeros(2), None)
+            return (Contour(_diagonal(spec.semi_axes), np.zeros(2), None),)
         case doc.SuperellipseContour():
-            matrix = np.diag(np.array(spec.semi_axes, dtype=np.float64))
-            if spec.exponent == 2:
-                return Contour(matrix, np.zeros(2), None)
-            return Contour(matrix, np.zeros(2), SuperellipseOutline(float(spec.exponent)))
+            round_ = spec.exponent == 2
+            outline = None if round_ else SuperellipseOutline(float(spec.exponent))
+            return (Contour(_diagonal(spec.semi_axes), np.zeros(2), outline),)
+        case _:
+            return _stars(plane_outline(spec))
+
+
+def _diagonal(semi_axes: tuple[float, float]) -> Floats:
+    return np.diag(np.array(semi_axes, dtype=np.float64))
+
+
+def plane_outline(spec: doc.Contour) -> Outline:
+    """Return any contour as an outline in mm, about the origin of the contour plane."""
+    match spec:
+        case doc.CircleContour():
+            return ScaledOutline(CircleOutline(), np.eye(2) * spec.radius)
+        case doc.EllipseContour():
+            return ScaledOutline(CircleOutline(), _diagonal(spec.semi_axes))
+        case doc.SuperellipseContour():
+            return ScaledOutline(
+                SuperellipseOutline(float(spec.exponent)), _diagonal(spec.semi_axes)
+            )
         case doc.PolarContour():
             radii = np.array([*spec.radii, spec.radii[0]], dtype=np.float64)
             theta = np.linspace(0.0, 2 * np.pi, len(radii))
             outline: Outline = PolarOutline(CubicSpline(theta, radii, bc_type="periodic"))
             _check_polar(outline)
+            return outline
         case doc.SplineContour():
             points = np.array([*spec.points, spec.points[0]], dtype=np.float64)
             lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
             knots = np.concatenate([[0.0], np.cumsum(lengths)]) / lengths.sum()
-            outline = SplineOutline(CubicSpline(knots, points, bc_type="periodic"))
+            return SplineOutline(CubicSpline(knots, points, bc_type="periodic"))
         case doc.PolygonContour():
-            outline = _rounded(np.array(spec.points, dtype=np.float64), float(spec.corner_radius))
-    return _star(outline)
+            points = np.array(spec.points, dtype=np.float64)
+            return _rounded(points, float(spec.corner_radius))
 
 
 def _check_polar(outline: Outline) -> None:
@@ -152,8 +173,28 @@ def _rounded(points: Floats, radius: float) -> Outline:
     )
 
 
-def _star(outline: Outline) -> Contour:
-    """Find the point the outline is star-shaped about, and scale it to reach 1."""
+def _stars(outline: Outline) -> tuple[Contour, ...]:
+    """Return the outline as one star-shaped contour, or as the fewest parts a few tries give."""
+    one = star(outline)
+    if one is not None:
+        return (one,)
+    check_simple(outline)
+    parts = star_parts(outline, lambda part: star(part) is not None)
+    if parts is None:
+        raise RefusalError(
+            "/contour",
+            "contour_detail",
+            "the contour cannot be cut into star-shaped parts; expected a simpler one",
+        )
+    found = [star(part) for part in parts]
+    return tuple(part for part in found if part is not None)
+
+
+def star(outline: Outline, center: Floats | None = None) -> Contour | None:
+    """Place an outline about a point that sees it whole, scaled to reach 1; None if there is none.
+
+    With ``center`` given, only that point is tried.
+    """
     samples = outline_samples(outline, 1024)
     points, first = samples[0], samples[1]
     area = 0.5 * _cross(points, np.roll(points, -1, axis=0)).sum()
@@ -162,15 +203,18 @@ def _star(outline: Outline) -> Contour:
     edges = first[keep] / np.linalg.norm(first[keep], axis=1)[:, None] * (-1.0 if reverse else 1.0)
     edge_points = points[keep]
     size = float(np.ptp(points, axis=0).max())
-    center = _centroid(points)
-    margin = _margin(center, edge_points, edges)
-    if margin < _GOOD_MARGIN * size:
-        center = _deepest(edge_points, edges, size)
+    if center is None:
+        center = _centroid(points)
+        margin = _margin(center, edge_points, edges)
+        if margin < _GOOD_MARGIN * size:
+            center = _deepest(edge_points, edges, size)
+            margin = _margin(center, edge_points, edges)
+    else:
         margin = _margin(center, edge_points, edges)
     winding = np.unwrap(np.arctan2(*(points - center).T[::-1]), period=2 * np.pi)
     turns = abs(winding[-1] - winding[0]) / (2 * np.pi)
     if margin < _STAR_MARGIN * size or turns > 1.5:
-        _refuse(points, margin)
+        return None
     scale = float(np.linalg.norm(points - center, axis=1).max())
     return Contour(np.eye(2) * scale, center, PlacedOutline(outline, center, scale, reverse))
 
@@ -202,8 +246,9 @@ def _deepest(points: Floats, edges: Floats, size: float) -> Floats:
     return np.asarray(answer.x, dtype=np.float64)[:2]
 
 
-def _refuse(points: Floats, margin: float) -> None:
-    """Say which it is: a curve that crosses itself, or a simple one that is not a star."""
+def check_simple(outline: Outline) -> None:
+    """Refuse an outline that crosses itself, with the place."""
+    points = outline_samples(outline, 1024)[0]
     a, b = points, np.roll(points, -1, axis=0)
     d = b - a
     side_a = _cross(d[:, None], a[None] - a[:, None])
@@ -217,9 +262,3 @@ def _refuse(points: Floats, margin: float) -> None:
             f"the contour crosses itself near ({a[i][0]:.4g}, {a[i][1]:.4g}) mm, at "
             f"{i / len(a):.3f} and {j / len(a):.3f} of its length; expected a simple closed curve",
         )
-    raise RefusalError(
-        "/contour",
-        "not_star_shaped",
-        f"no point sees the whole contour (best margin {margin:.3g} mm); "
-        "expected a contour that is star-shaped about some point",
-    )

@@ -115,6 +115,40 @@ class SuperellipseOutline:
 
 
 @dataclass(frozen=True)
+class CircleOutline:
+    """The unit circle; v counts quarter turns."""
+
+    @property
+    def breaks(self) -> Floats:
+        """The ends of the quadrants."""
+        return np.arange(5.0)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Turn the unit vector."""
+        rate = np.pi / 2
+        cos, sin = np.cos(rate * v), np.sin(rate * v)
+        point = np.stack([cos, sin], axis=-1)
+        return np.stack([point, rate * np.stack([-sin, cos], axis=-1), -(rate**2) * point])
+
+
+@dataclass(frozen=True)
+class ScaledOutline:
+    """An outline under a linear map."""
+
+    inner: Outline
+    matrix: Floats  # (2, 2)
+
+    @property
+    def breaks(self) -> Floats:
+        """Those of the inner outline."""
+        return self.inner.breaks
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Map the point and its derivatives."""
+        return np.asarray(self.inner.derivatives(v, piece) @ self.matrix.T)
+
+
+@dataclass(frozen=True)
 class RoundedOutline:
     """Straight edges joined by tangent arcs; edge k is piece 2k, the arc after it 2k + 1."""
 

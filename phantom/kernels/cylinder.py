@@ -12,9 +12,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.compiled.layout import CELLS
+from phantom.compiled.layout import CELLS, Tables
 from phantom.kernels.compiling import kernel
-from phantom.kernels.section import circle, star
+from phantom.kernels.section import changing_star, circle, star
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -83,11 +83,7 @@ def evaluate(
     w: float,
     guess: float,
     table: int,
-    first_cell: Ints,
-    edges: Floats,
-    cells: Floats,
-    first_bucket: Ints,
-    buckets: Ints,
+    tables: Tables,
 ) -> tuple[float, float, float]:
     """Return G, dG/dw and tau at w."""
     tau = solve_tau(work, w, guess)
@@ -112,31 +108,44 @@ def evaluate(
     yd += y1 * turn
     if table < 0:
         h, hx, hy = circle(x, y)
-    else:
-        h, hx, hy = star(x, y, table, first_cell, edges, cells, first_bucket, buckets)
-    return h, hx * xd + hy * yd, tau
+        return h, hx * xd + hy * yd, tau
+    if tables.first_cell[table] < len(tables.cells):
+        h, hx, hy = star(x, y, table, tables)
+        return h, hx * xd + hy * yd, tau
+    h, hx, hy, rate = changing_star(x, y, tau, table, tables)
+    return h, hx * xd + hy * yd + rate * turn, tau
 
 
 @kernel
 def stays_positive(
-    g0: float, s0: float, g1: float, s1: float, span: float, low: float, high: float
+    g0: float,
+    s0: float,
+    g1: float,
+    s1: float,
+    span: float,
+    low: float,
+    high: float,
+    up: float,
+    down: float,
 ) -> bool:
-    """Say whether G > 0 throughout, given its ends and bounds of its second derivative."""
-    if low >= 0.0 and (s0 >= 0.0 or s1 <= 0.0):
-        return True
-    if low > 0.0:
-        if max(g0 - s0 * s0 / (2.0 * low), g1 - s1 * s1 / (2.0 * low)) > 0.0:
-            return True
-    else:
-        # Two concave parabolas lie below G, one from each end: together they must keep above 0.
-        left = reach(g0, s0, low)
-        right = reach(g1, -s1, low)
+    """Say whether G > 0 throughout, given its ends and bounds of its second derivative.
+
+    Corners of the contour let the slope jump, by ``up`` and ``down`` at most in all. A parabola
+    below G may have to spend the whole of ``down`` at once.
+    """
+    left = reach(g0, s0 - down, low)
+    right = reach(g1, -s1 - down, low)
+    if low <= 0.0:
+        # Two concave parabolas lie below G, one from each end: together they must stay above 0.
         if left + right > span:
             return True
-    # G is above its chord by at least -high/2 s (span - s).
-    if high <= 0.0:
+    elif left > span or right > span:
+        # A convex one may come back up: it must stay above 0 alone.
         return True
-    bow = 0.5 * high * span * span
+    # G is above its chord by at least -high/2 s (span - s), and a jump costs as much again.
+    bow = 0.5 * high * span * span + up * span
+    if bow <= 0.0:
+        return True
     # The smallest of (1-t) g0 + t g1 - bow t (1-t) over t in [0, 1].
     t = 0.5 * (1.0 - (g1 - g0) / bow)
     if t <= 0.0 or t >= 1.0:
@@ -159,18 +168,20 @@ def reach(g: float, slope: float, low: float) -> float:
 
 
 @kernel
-def crosses_once(g0: float, s0: float, s1: float, span: float, low: float, high: float) -> bool:
+def crosses_once(
+    g0: float, s0: float, s1: float, span: float, low: float, high: float, up: float, down: float
+) -> bool:
     """Say whether G, of opposite signs at its ends, has exactly one root in between."""
-    if low >= 0.0 or high <= 0.0:
+    if (low >= 0.0 and down == 0.0) or (high <= 0.0 and up == 0.0):
         return True
     # The slope lies between two lines from each end; where they meet is its extreme.
-    s = min(max((s0 - s1 + high * span) / (high - low), 0.0), span)
-    least = max(s0 + low * s, s1 - high * (span - s))
-    if least > 0.0:
+    a, b = s0 - down, s1 - up - high * span
+    s = min(max((a - b) / (high - low), 0.0), span)
+    if max(a + low * s, b + high * s) > 0.0:
         return True
-    s = min(max((s1 - s0 - low * span) / (high - low), 0.0), span)
-    most = min(s0 + high * s, s1 - low * (span - s))
-    return most < 0.0
+    a, b = s0 + up, s1 + down - low * span
+    s = min(max((b - a) / (high - low), 0.0), span)
+    return min(a + high * s, b + low * s) < 0.0
 
 
 @kernel
@@ -183,11 +194,7 @@ def polish(
     gb: float,
     tau: float,
     table: int,
-    first_cell: Ints,
-    edges: Floats,
-    cells: Floats,
-    first_bucket: Ints,
-    buckets: Ints,
+    tables: Tables,
     counter: Ints,
 ) -> float:
     """Find the root of G between a and b, of opposite signs, by safeguarded Newton."""
@@ -199,9 +206,7 @@ def polish(
     if not (w > a and w < b):
         w = 0.5 * (a + b)
     for _ in range(100):
-        g, slope, tau = evaluate(
-            work, w, tau, table, first_cell, edges, cells, first_bucket, buckets
-        )
+        g, slope, tau = evaluate(work, w, tau, table, tables)
         counter[0] += 1
         if g == 0.0:
             return w
@@ -222,14 +227,14 @@ def polish(
 
 @kernel
 def curvature(
-    hessians: Floats, k: int, lane: Floats, start: float, end: float
-) -> tuple[float, float]:
-    """Return bounds of G'' on [start, end] of the ray, from the cells of the box it runs through.
+    hessians: Floats, kinks: Floats, k: int, lane: Floats, start: float, end: float
+) -> tuple[float, float, float, float]:
+    """Return bounds of G'' and of the jumps of G' on [start, end] of the ray: low, high, up, down.
 
-    ``lane`` holds the ray in cell units, ``p1 d1 p2 d2``, and then the six products of its
-    direction with itself that weight the entries of the Hessian.
+    They come from the cells of the box it runs through. ``lane`` holds the ray in cell units,
+    ``p1 d1 p2 d2``, and the six products of its direction with itself that weight the Hessian.
     """
-    low, high = math.inf, -math.inf
+    low, high, up, down = math.inf, -math.inf, 0.0, 0.0
     p1, d1, p2, d2 = lane[0], lane[1], lane[2], lane[3]
     a1, b1 = p1 + start * d1, p1 + end * d1
     first = min(max(int(min(a1, b1) - _EDGE), 0), CELLS - 1)
@@ -259,7 +264,10 @@ def curvature(
                 least += min(x, y)
                 most += max(x, y)
             low, high = min(low, least), max(high, most)
-    return low, high
+            growth = max(1.0, kinks[k, i, j, 2] * (end - start))
+            up += kinks[k, i, j, 0] * growth
+            down += kinks[k, i, j, 1] * growth
+    return low, high, up, down
 
 
 @kernel
@@ -267,17 +275,14 @@ def chords(
     work: Floats,
     stack: Floats,
     hessians: Floats,
+    kinks: Floats,
     k: int,
     lane: Floats,
     start: float,
     end: float,
     shortest: float,
     table: int,
-    first_cell: Ints,
-    edges: Floats,
-    cells: Floats,
-    first_bucket: Ints,
-    buckets: Ints,
+    tables: Tables,
     found: Floats,
     room: int,
     counter: Ints,
@@ -286,20 +291,20 @@ def chords(
 
     A negative answer means there was no room for all of them.
     """
-    g0, s0, t0 = evaluate(work, start, 0.0, table, first_cell, edges, cells, first_bucket, buckets)
+    g0, s0, t0 = evaluate(work, start, 0.0, table, tables)
     counter[0] += 1
     count = 0
     inside = g0 < 0.0
     entry = start
     # What one end and the bounds decide needs no look at the other.
-    low, high = curvature(hessians, k, lane, start, end)
+    low, high, up, down = curvature(hessians, kinks, k, lane, start, end)
     if inside:
-        if reach(-g0, -s0, -high) > end - start:
+        if reach(-g0, -s0 - up, -high) > end - start:
             found[0, 0], found[0, 1] = start, end
             return 1
-    elif reach(g0, s0, low) > end - start:
+    elif reach(g0, s0 - down, low) > end - start:
         return 0
-    g1, s1, t1 = evaluate(work, end, t0, table, first_cell, edges, cells, first_bucket, buckets)
+    g1, s1, t1 = evaluate(work, end, t0, table, tables)
     counter[0] += 1
     stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = start, g0, s0, t0
     stack[0, 4], stack[0, 5], stack[0, 6], stack[0, 7] = end, g1, s1, t1
@@ -312,9 +317,9 @@ def chords(
         opposite = (g0 < 0.0) != (g1 < 0.0)
         short = span < shortest
         if not short and (a > start or b < end):
-            low, high = curvature(hessians, k, lane, a, b)
+            low, high, up, down = curvature(hessians, kinks, k, lane, a, b)
         if opposite:
-            if short or crosses_once(g0, s0, s1, span, low, high):
+            if short or crosses_once(g0, s0, s1, span, low, high, up, down):
                 w = polish(
                     work,
                     a,
@@ -324,11 +329,7 @@ def chords(
                     g1,
                     t0,
                     table,
-                    first_cell,
-                    edges,
-                    cells,
-                    first_bucket,
-                    buckets,
+                    tables,
                     counter,
                 )
                 if inside:
@@ -343,9 +344,9 @@ def chords(
         elif short:
             continue
         elif g0 >= 0.0:
-            if stays_positive(g0, s0, g1, s1, span, low, high):
+            if stays_positive(g0, s0, g1, s1, span, low, high, up, down):
                 continue
-        elif stays_positive(-g0, -s0, -g1, -s1, span, -high, -low):
+        elif stays_positive(-g0, -s0, -g1, -s1, span, -high, -low, down, up):
             continue
         # Split where the slope's secant vanishes: near the extreme that is in doubt.
         part = 0.5
@@ -357,11 +358,7 @@ def chords(
             m,
             t0 + part * (t1 - t0),
             table,
-            first_cell,
-            edges,
-            cells,
-            first_bucket,
-            buckets,
+            tables,
         )
         counter[0] += 1
         if waiting + 2 > STACK:

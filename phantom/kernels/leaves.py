@@ -16,6 +16,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
+JOIN_MM = 1e-10
+"""Intervals of one leaf nearer than this are one: far below what any surface is right to."""
+
+
 @kernel
 def through_box(
     box: Floats,
@@ -111,9 +115,10 @@ def quadric_leaf(
 
 
 @kernel
-def cylinder_leaf(
+def cylinder_part(
     scene: Scene,
     leaf: int,
+    part: int,
     x: float,
     y: float,
     z: float,
@@ -134,9 +139,9 @@ def cylinder_leaf(
     found: Floats,
     counter: Ints,
 ) -> int:
-    """Add the intervals of a generalized cylinder within [low, high] (both about ``shift``)."""
-    first, last = scene.first_segment[leaf], scene.first_segment[leaf + 1]
-    knot = first + leaf
+    """Add the intervals of one part of a generalized cylinder within [low, high]."""
+    first, last = scene.first_segment[part], scene.first_segment[part + 1]
+    knot = first + part
     n0, n1, n2 = scene.knots[knot, 0], scene.knots[knot, 1], scene.knots[knot, 2]
     f0 = n0 * x + n1 * y + n2 * z - scene.knots[knot, 3]
     slope0 = n0 * dx + n1 * dy + n2 * dz
@@ -193,17 +198,14 @@ def cylinder_leaf(
             work,
             stack,
             scene.hessians,
+            scene.kinks,
             k,
             lane,
             a,
             b,
             shortest,
-            scene.leaf_table[leaf],
-            scene.first_cell,
-            scene.edges,
-            scene.cells,
-            scene.first_bucket,
-            scene.buckets,
+            scene.segment_table[k],
+            scene.tables,
             found,
             len(found),
             counter,
@@ -217,6 +219,88 @@ def cylinder_leaf(
             if count < 0:
                 return -1
     return count
+
+
+@kernel
+def cylinder_leaf(
+    scene: Scene,
+    leaf: int,
+    x: float,
+    y: float,
+    z: float,
+    dx: float,
+    dy: float,
+    dz: float,
+    low: float,
+    high: float,
+    shift: float,
+    shortest: float,
+    count: int,
+    entries: Floats,
+    exits: Floats,
+    owners: Ints,
+    work: Floats,
+    lane: Floats,
+    stack: Floats,
+    found: Floats,
+    counter: Ints,
+) -> int:
+    """Add the intervals of a generalized cylinder within [low, high] (both about ``shift``)."""
+    start = count
+    first, last = scene.first_part[leaf], scene.first_part[leaf + 1]
+    for part in range(first, last):
+        count = cylinder_part(
+            scene,
+            leaf,
+            part,
+            x,
+            y,
+            z,
+            dx,
+            dy,
+            dz,
+            low,
+            high,
+            shift,
+            shortest,
+            count,
+            entries,
+            exits,
+            owners,
+            work,
+            lane,
+            stack,
+            found,
+            counter,
+        )
+        if count < 0:
+            return -1
+    if last - first > 1:
+        return unite(start, count, entries, exits)
+    return count
+
+
+@kernel
+def unite(start: int, count: int, entries: Floats, exits: Floats) -> int:
+    """Sort the intervals from ``start`` on and join those that overlap; return the new count.
+
+    The parts of one contour overlap a little where they were cut.
+    """
+    for i in range(start + 1, count):
+        a, b = entries[i], exits[i]
+        j = i
+        while j > start and entries[j - 1] > a:
+            entries[j], exits[j] = entries[j - 1], exits[j - 1]
+            j -= 1
+        entries[j], exits[j] = a, b
+    kept = start
+    for i in range(start + 1, count):
+        if entries[i] <= exits[kept] + JOIN_MM:
+            exits[kept] = max(exits[kept], exits[i])
+        else:
+            kept += 1
+            entries[kept], exits[kept] = entries[i], exits[i]
+    return min(kept + 1, count)
 
 
 @kernel
@@ -274,7 +358,7 @@ def leaf_intervals(
             )
         if not low < high:
             continue
-        if scene.first_segment[leaf] == scene.first_segment[leaf + 1]:
+        if scene.first_part[leaf] == scene.first_part[leaf + 1]:
             count = quadric_leaf(
                 scene, leaf, x, y, z, dx, dy, dz, low, high, shift, count, entries, exits, owners
             )

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from phantom.compiled.layout import Tables
 from phantom.kernels.compiling import kernel
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @kernel
@@ -18,47 +13,85 @@ def circle(x: float, y: float) -> tuple[float, float, float]:
 
 
 @kernel
-def star(
-    x: float,
-    y: float,
-    table: int,
-    first_cell: Ints,
-    edges: Floats,
-    cells: Floats,
-    first_bucket: Ints,
-    buckets: Ints,
-) -> tuple[float, float, float]:
-    """Return h, dh/dx and dh/dy of a tabulated contour (:mod:`phantom.compiled.sections`)."""
+def chart_of(x: float, y: float) -> tuple[int, float, float]:
+    """Return the chart of a point and its major and minor coordinates there."""
     if abs(x) >= abs(y):
-        chart, major, minor = (0.0, x, y) if x >= 0 else (2.0, -x, -y)
-    else:
-        chart, major, minor = (1.0, y, -x) if y >= 0 else (3.0, -y, x)
+        return (0, x, y) if x >= 0 else (2, -x, -y)
+    return (1, y, -x) if y >= 0 else (3, -y, x)
+
+
+@kernel
+def cell_of(T: float, table: int, tables: Tables) -> int:
+    """Return the cell of a table that holds the pseudo-angle T; its edge lies ``table`` later."""
+    count = tables.first_bucket[table + 1] - tables.first_bucket[table]
+    bucket = min(int(T * count * 0.125), count - 1)
+    cell = tables.buckets[tables.first_bucket[table] + bucket]
+    last = tables.first_cell[table + 1] - 1
+    while cell < last and tables.edges[cell + table + 1] <= T:
+        cell += 1
+    return int(cell)
+
+
+@kernel
+def turned(chart: int, major: float, minor: float) -> tuple[float, float]:
+    """Turn a vector of a chart back to x and y."""
+    if chart == 0:
+        return major, minor
+    if chart == 1:
+        return -minor, major
+    if chart == 2:
+        return -major, -minor
+    return minor, -major
+
+
+@kernel
+def star(x: float, y: float, table: int, tables: Tables) -> tuple[float, float, float]:
+    """Return h, dh/dx and dh/dy of a fixed contour (:mod:`phantom.compiled.sections`)."""
+    chart, major, minor = chart_of(x, y)
     if major == 0.0:
         return -1.0, 0.0, 0.0
     t = minor / major
     T = 2.0 * chart + t + 1.0
-    count = first_bucket[table + 1] - first_bucket[table]
-    bucket = min(int(T * count * 0.125), count - 1)
-    cell = buckets[first_bucket[table] + bucket]
-    # Edges of a table with n cells take n + 1 places: one more than its cells per table.
-    edge = cell + table
-    last = first_cell[table + 1] - 1
-    while cell < last and edges[edge + 1] <= T:
-        cell += 1
-        edge += 1
-    half = 0.5 * (edges[edge + 1] - edges[edge])
-    z = (T - edges[edge] - half) / half
-    c0, c1, c2 = cells[cell, 0], cells[cell, 1], cells[cell, 2]
-    c3, c4, c5 = cells[cell, 3], cells[cell, 4], cells[cell, 5]
-    g = ((((c5 * z + c4) * z + c3) * z + c2) * z + c1) * z + c0
-    slope = ((((5 * c5 * z + 4 * c4) * z + 3 * c3) * z + 2 * c2) * z + c1) / half
-    g_major, g_minor = major * (2.0 * g - t * slope), major * slope
-    if chart == 0.0:
-        gx, gy = g_major, g_minor
-    elif chart == 1.0:
-        gx, gy = -g_minor, g_major
-    elif chart == 2.0:
-        gx, gy = -g_major, -g_minor
-    else:
-        gx, gy = g_minor, -g_major
+    cell = cell_of(T, table, tables)
+    low = tables.edges[cell + table]
+    half = 0.5 * (tables.edges[cell + table + 1] - low)
+    z = (T - low - half) / half
+    c = tables.cells
+    g, slope = c[cell, 5], 0.0
+    for i in range(4, -1, -1):
+        slope = slope * z + g
+        g = g * z + c[cell, i]
+    slope /= half
+    gx, gy = turned(chart, major * (2.0 * g - t * slope), major * slope)
     return major * major * g - 1.0, gx, gy
+
+
+@kernel
+def changing_star(
+    x: float, y: float, tau: float, table: int, tables: Tables
+) -> tuple[float, float, float, float]:
+    """Return h, dh/dx, dh/dy and dh/dtau of a contour that changes along the segment."""
+    chart, major, minor = chart_of(x, y)
+    if major == 0.0:
+        return -1.0, 0.0, 0.0, 0.0
+    t = minor / major
+    T = 2.0 * chart + t + 1.0
+    cell = cell_of(T, table, tables)
+    low = tables.edges[cell + table]
+    half = 0.5 * (tables.edges[cell + table + 1] - low)
+    z = (T - low - half) / half
+    c = tables.tensors
+    row = cell - len(tables.cells)
+    g = slope = rate = 0.0
+    for i in range(5, -1, -1):
+        value, first = c[row, i, 6], 0.0
+        for j in range(5, -1, -1):
+            first = first * tau + value
+            value = value * tau + c[row, i, j]
+        slope = slope * z + g
+        g = g * z + value
+        rate = rate * z + first
+    slope /= half
+    gx, gy = turned(chart, major * (2.0 * g - t * slope), major * slope)
+    square = major * major
+    return square * g - 1.0, gx, gy, square * rate

@@ -1,0 +1,241 @@
+"""Any simple closed outline as a union of outlines that are star-shaped.
+
+A contour that no single point sees whole (a C, a kidney, a spiral) is cut by straight chords into
+parts that are. Parts reach over their chords by :data:`OVERLAP`, far below the tolerance of the
+surface, so that no ray slips between two of them; a ray's intervals are united afterwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from phantom.geometry.outlines import Outline
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+OVERLAP = 2e-9
+"""Parts reach over the line that cuts them by this share of the outline's size."""
+
+_SAMPLES = 24
+_MOST_PARTS = 256
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A stretch of a piece of an outline, or a straight edge (``piece`` = -1)."""
+
+    piece: int
+    start: float
+    end: float
+    points: Floats  # (2, 2): where it begins and ends
+
+    def sampled(self, outline: Outline, count: int) -> tuple[Floats, Floats]:
+        """Return parameters and points along it, both ends included."""
+        s = np.linspace(0.0, 1.0, count)
+        if self.piece < 0:
+            return s, self.points[0] + s[:, None] * (self.points[1] - self.points[0])
+        v = self.start + s * (self.end - self.start)
+        return v, outline.derivatives(v, np.full(count, self.piece, dtype=np.intp))[0]
+
+
+Loop = tuple[Arc, ...]
+
+
+@dataclass(frozen=True)
+class LoopOutline:
+    """A loop of arcs as an outline; arc k covers ``k <= v <= k + 1``."""
+
+    outline: Outline
+    loop: Loop
+
+    @property
+    def breaks(self) -> Floats:
+        """The ends of the arcs."""
+        return np.arange(len(self.loop) + 1.0)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Evaluate each arc on its own stretch."""
+        local = (v - piece)[:, None]
+        straight = np.array([arc.piece < 0 for arc in self.loop])[piece]
+        ends = np.array([arc.points for arc in self.loop])[piece]
+        owner = np.array([max(arc.piece, 0) for arc in self.loop], dtype=np.intp)[piece]
+        start = np.array([arc.start for arc in self.loop])[piece]
+        rate = np.array([arc.end - arc.start for arc in self.loop])[piece]
+        edge = ends[:, 1] - ends[:, 0]
+        along = np.stack([ends[:, 0] + local * edge, edge, np.zeros_like(edge)])
+        parameter = np.where(straight, self.outline.breaks[owner], start + local[:, 0] * rate)
+        curved = self.outline.derivatives(parameter, owner)
+        curved = curved * np.stack([np.ones_like(rate), rate, rate**2])[..., None]
+        return np.asarray(np.where(straight[:, None], along, curved))
+
+
+def whole(outline: Outline) -> Loop:
+    """Return an outline as a loop of its own pieces."""
+    breaks = outline.breaks
+    pieces = np.arange(len(breaks) - 1)
+    starts = outline.derivatives(breaks[:-1], pieces)[0]
+    ends = outline.derivatives(breaks[1:], pieces)[0]
+    return tuple(
+        Arc(int(k), float(breaks[k]), float(breaks[k + 1]), np.stack([starts[k], ends[k]]))
+        for k in pieces
+    )
+
+
+def star_parts(outline: Outline, is_star: object) -> list[Outline] | None:
+    """Cut an outline into parts for which ``is_star(part)`` holds; None where there are too many.
+
+    ``is_star`` takes an outline and returns a bool.
+    """
+    assert callable(is_star)
+    waiting, done = [whole(outline)], []
+    while waiting:
+        loop = waiting.pop()
+        part = LoopOutline(outline, loop)
+        if is_star(part):
+            done.append(part)
+            continue
+        if len(waiting) + len(done) >= _MOST_PARTS:
+            return None
+        halves = _halved(outline, loop)
+        if halves is None:
+            return None
+        waiting += halves
+    return list(done)
+
+
+def _halved(outline: Outline, loop: Loop) -> list[Loop] | None:
+    """Cut a loop in two along the shortest chord that leaves a fair part on both sides."""
+    sampled = [arc.sampled(outline, _SAMPLES) for arc in loop]
+    points = np.concatenate([p[:-1] for _, p in sampled])
+    area = _area(points)
+    middle, spread = points.mean(axis=0), np.cov(points.T)
+    long = np.linalg.eigh(spread)[1][:, 1]
+    best: tuple[float, list[Loop]] | None = None
+    # Lines across the long direction first, turned a little for those that touch corners.
+    for turn in (0.0, 0.4, -0.4, 0.8, -0.8, 1.2, -1.2, np.pi / 2):
+        normal = np.array(
+            [
+                np.cos(turn) * long[0] - np.sin(turn) * long[1],
+                np.sin(turn) * long[0] + np.cos(turn) * long[1],
+            ]
+        )
+        heights = (points - middle) @ normal
+        for level in np.quantile(heights, [0.5, 0.35, 0.65, 0.2, 0.8]) + 1e-7 * np.ptp(heights):
+            for halves, length in _cuts(outline, loop, sampled, normal, middle @ normal + level):
+                shares = [abs(_area(_loop_points(outline, h))) / abs(area) for h in halves]
+                if min(shares) < 0.02:
+                    continue
+                cost = length / np.sqrt(min(shares))
+                if best is None or cost < best[0]:
+                    best = (cost, halves)
+    return None if best is None else best[1]
+
+
+def _area(points: Floats) -> float:
+    x, y = points.T
+    return float(0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def _loop_points(outline: Outline, loop: Loop) -> Floats:
+    return np.concatenate([arc.sampled(outline, _SAMPLES)[1][:-1] for arc in loop])
+
+
+def _cuts(
+    outline: Outline,
+    loop: Loop,
+    sampled: list[tuple[Floats, Floats]],
+    normal: Floats,
+    level: float,
+) -> list[tuple[list[Loop], float]]:
+    """Return the two-part cuts of a loop along one line, with the lengths of their chords.
+
+    Each part is cut a little beyond the line, so that the two overlap there.
+    """
+    brackets = []
+    size = 0.0
+    for index, (arc, (v, p)) in enumerate(zip(loop, sampled, strict=True)):
+        height = p @ normal - level
+        size = max(size, float(np.abs(height).max()))
+        for k in np.flatnonzero(height[:-1] * height[1:] < 0):
+            brackets.append((index, arc, v[k], v[k + 1], height[k]))
+    if len(brackets) < 2 or len(brackets) % 2:
+        return []
+    beyond = size * OVERLAP
+    if min(abs(b[4]) for b in brackets) <= 4 * beyond:
+        return []
+    along = np.array([-normal[1], normal[0]])
+    met = [_meet(outline, arc, low, high, normal, level) for _, arc, low, high, _ in brackets]
+    order = sorted(range(len(met)), key=lambda k: float(met[k][1] @ along))
+    # Between the first and the second crossing the line is inside, between the third and fourth...
+    result = []
+    for one, two in zip(order[::2], order[1::2], strict=True):
+        halves = []
+        for first, last in ((one, two), (two, one)):
+            # Coming from below the line, the outline goes on above it.
+            above = brackets[first][4] < 0
+            at = level - beyond if above else level + beyond
+            ends = [
+                (brackets[k][0], *_meet(outline, *brackets[k][1:4], normal, at))
+                for k in (first, last)
+            ]
+            halves.append(_side(loop, ends[0], ends[1]))
+        result.append((halves, float(np.linalg.norm(met[two][1] - met[one][1]))))
+    return result
+
+
+def _meet(
+    outline: Outline, arc: Arc, low: float, high: float, normal: Floats, level: float
+) -> tuple[float, Floats]:
+    """Find where an arc meets a line, by bisection."""
+
+    def at(v: float) -> Floats:
+        if arc.piece < 0:
+            return np.asarray(arc.points[0] + v * (arc.points[1] - arc.points[0]))
+        return np.asarray(
+            outline.derivatives(np.array([v]), np.array([arc.piece], dtype=np.intp))[0][0]
+        )
+
+    sign = at(low) @ normal - level
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if (at(middle) @ normal - level) * sign > 0:
+            low = middle
+        else:
+            high = middle
+    return low, at(low)
+
+
+def _side(loop: Loop, one: tuple[int, float, Floats], two: tuple[int, float, Floats]) -> Loop:
+    """Return the loop that runs from ``one`` along the outline to ``two`` and back by the chord."""
+    arcs: list[Arc] = []
+    first, last = one[0], two[0]
+    if first == last and _before(loop[first], one[1], two[1]):
+        arcs.append(_stretch(loop[first], one, two))
+    else:
+        arcs.append(_stretch(loop[first], one, None))
+        index = (first + 1) % len(loop)
+        while index != last:
+            arcs.append(loop[index])
+            index = (index + 1) % len(loop)
+        arcs.append(_stretch(loop[last], None, two))
+    return (*arcs, Arc(-1, 0.0, 1.0, np.stack([two[2], one[2]])))
+
+
+def _before(arc: Arc, one: float, two: float) -> bool:
+    return (two > one) == (arc.end > arc.start) if arc.piece >= 0 else two > one
+
+
+def _stretch(
+    arc: Arc, one: tuple[int, float, Floats] | None, two: tuple[int, float, Floats] | None
+) -> Arc:
+    start = arc.start if one is None else one[1]
+    end = arc.end if two is None else two[1]
+    begin = arc.points[0] if one is None else one[2]
+    finish = arc.points[1] if two is None else two[2]
+    if arc.piece < 0:
+        return Arc(-1, 0.0, 1.0, np.stack([begin, finish]))
+    return Arc(arc.piece, start, end, np.stack([begin, finish]))
