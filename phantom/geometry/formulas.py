@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import factorial
 
@@ -171,8 +172,13 @@ class _Evaluation:
         return np.where(undefined, np.nan, np.where(holds, then, otherwise))
 
 
-_ARITHMETIC = {"+": np.add, "-": np.subtract, "*": jets.product, "/": jets.quotient}
-_CALLS = {
+_ARITHMETIC: dict[str, Callable[[Floats, Floats], Floats]] = {
+    "+": np.add,
+    "-": np.subtract,
+    "*": jets.product,
+    "/": jets.quotient,
+}
+_CALLS: dict[str, Callable[..., Floats]] = {
     "sin": lambda a: jets.sin_cos(a)[0],
     "cos": lambda a: jets.sin_cos(a)[1],
     "tan": jets.tan,

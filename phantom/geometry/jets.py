@@ -137,7 +137,7 @@ def leading(a: Floats) -> Floats:
     result = a[0]
     for coefficient in a[1:]:
         result = np.where(result == 0, coefficient, result)
-    return result
+    return np.asarray(result)
 
 
 def constant_like(a: Floats, value: float | Floats) -> Floats:
