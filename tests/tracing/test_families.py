@@ -8,6 +8,7 @@ import pytest
 
 from tests.oracles import families, rays
 from tests.oracles.agreement import assert_agree
+from tests.oracles.cylinders import Axis
 
 ALL = [
     kinds
@@ -47,6 +48,11 @@ def check(kinds, seed, count):
     }
     document = json.loads(json.dumps(document))
     origins, directions = rays.through_ball(rng, count, 90.0)
+    # Half of them past the axis, near enough to hit and to graze.
+    near = Axis(document["solid"]["axis"])(rng.random(count // 2)) + rng.normal(
+        0, 5, (count // 2, 3)
+    )
+    origins[::2] = near - 270 * directions[::2]
     lengths = assert_agree(document, origins, directions, (120.0, 420.0), 250.0, samples=500)
     assert np.count_nonzero(lengths) > 0
 
