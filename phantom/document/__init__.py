@@ -12,6 +12,11 @@ from phantom.document.contours import (
 )
 from phantom.document.curves import ArcAxis, Axis, BSplineAxis, HelixAxis, LineAxis, SplineAxis
 from phantom.document.documents import Anatomy, Document, Finding
+from phantom.document.expressions import Expression
+from phantom.document.formula_curves import FormulaAxis, FormulaContour
+from phantom.document.formula_text import parse_formula
+from phantom.document.formula_tokens import FormulaError
+from phantom.document.generalized_cylinder import GeneralizedCylinder
 from phantom.document.json_text import decode_json
 from phantom.document.leaf import Appearance, Cut, LeafModel
 from phantom.document.leaves import (
@@ -20,10 +25,10 @@ from phantom.document.leaves import (
     Cylinder,
     DoubleCone,
     Ellipsoid,
-    GeneralizedCylinder,
     Quadric,
     Sphere,
 )
+from phantom.document.profiles import FormulaProfile, KnotProfile, Profile, Scale
 from phantom.document.reading import parse, read
 from phantom.document.solids import (
     LEAVES,
@@ -42,13 +47,23 @@ from phantom.document.solids import (
     is_leaf,
     label_of,
 )
+from phantom.document.spans import parameter_range
 from phantom.document.substances import (
     CompositionMaterial,
     FixedMaterial,
     Material,
     ReferenceMaterial,
 )
-from phantom.document.sweeps import Frame, KnotProfile, LinearSweep, Profile, Scale, Sweep, UpFrame
+from phantom.document.sweeps import (
+    FormulaSweep,
+    Frame,
+    LinearSweep,
+    MatrixSweep,
+    MorphSection,
+    MorphSweep,
+    Sweep,
+    UpFrame,
+)
 from phantom.document.validation import validate_model
 
 __all__ = [
@@ -71,8 +86,14 @@ __all__ = [
     "DoubleCone",
     "EllipseContour",
     "Ellipsoid",
+    "Expression",
     "Finding",
     "FixedMaterial",
+    "FormulaAxis",
+    "FormulaContour",
+    "FormulaError",
+    "FormulaProfile",
+    "FormulaSweep",
     "Frame",
     "GeneralizedCylinder",
     "HelixAxis",
@@ -84,7 +105,10 @@ __all__ = [
     "LineAxis",
     "LinearSweep",
     "Material",
+    "MatrixSweep",
     "Model",
+    "MorphSection",
+    "MorphSweep",
     "Operator",
     "Overlap",
     "Point",
@@ -111,7 +135,9 @@ __all__ = [
     "decode_json",
     "is_leaf",
     "label_of",
+    "parameter_range",
     "parse",
+    "parse_formula",
     "read",
     "told",
     "validate_model",

@@ -4,9 +4,20 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import field_validator
+from pydantic import Field, ValidationInfo, field_validator
 
-from phantom.document.base import Length, Model, Number, PlanePoint, by_type, told
+from phantom.document.base import (
+    SMALLEST_LENGTH_MM,
+    Length,
+    Model,
+    Number,
+    PlanePoint,
+    by_type,
+    refuse,
+    told,
+)
+from phantom.document.formula_curves import FormulaContour
+from phantom.document.formula_fields import FormulaInTheta
 from phantom.document.rules import neighbours_apart
 
 
@@ -39,7 +50,7 @@ class SuperellipseContour(Model):
 
 
 class PolygonContour(Model):
-    """A polygon whose corners are rounded by tangent arcs."""
+    """A polygon, its corners rounded by tangent arcs or sharp."""
 
     type: Literal["polygon"] = "polygon"
     points: Annotated[
@@ -47,7 +58,8 @@ class PolygonContour(Model):
         told("Points", "mm", "Corners [n, b] in order, three or more.", min_length=3),
     ]
     corner_radius: Annotated[
-        Length, told("Corner radius", "mm", "Radius of the arc at every corner.")
+        Number,
+        told("Corner radius", "mm", "Radius of the arc at every corner; 0 is sharp.", ge=0, le=1e7),
     ]
 
     @field_validator("points")
@@ -55,6 +67,14 @@ class PolygonContour(Model):
     def _corners_apart(cls, points: tuple[PlanePoint, ...]) -> tuple[PlanePoint, ...]:
         neighbours_apart(points, closed=True, field="points")
         return points
+
+    @field_validator("corner_radius")
+    @classmethod
+    def _is_a_length_or_zero(cls, corner_radius: float) -> float:
+        if 0 < corner_radius < SMALLEST_LENGTH_MM:
+            message = f"found {corner_radius:g}; expected 0 or at least {SMALLEST_LENGTH_MM:g}"
+            refuse("out_of_range", ((), message))
+        return corner_radius
 
 
 class SplineContour(Model):
@@ -74,15 +94,31 @@ class SplineContour(Model):
 
 
 class PolarContour(Model):
-    """A periodic C² cubic r(θ) through equally spaced radii."""
+    """r(θ), either a periodic C² cubic through equally spaced radii or a formula."""
 
     type: Literal["polar"] = "polar"
     radii: Annotated[
-        tuple[Length, ...],
+        tuple[Length, ...] | None,
         told(
             "Radii", "mm", "Radii equally spaced in θ over [0, 2π), from n toward b.", min_length=3
         ),
-    ]
+    ] = None
+    formula: Annotated[
+        FormulaInTheta | None,
+        told("Formula", "mm", "The radius, a 2π-periodic formula in theta, instead of radii."),
+        Field(validate_default=True),
+    ] = None
+
+    @field_validator("formula")
+    @classmethod
+    def _has_one_radius(cls, formula: str | None, info: ValidationInfo) -> str | None:
+        if "radii" in info.data:
+            if info.data["radii"] is None and formula is None:
+                message = "found neither; expected radii or formula"
+                refuse("missing", (("radii",), message), whole=True)
+            if info.data["radii"] is not None and formula is not None:
+                refuse("conflict", ((), "found radii too; expected radii or formula, not both"))
+        return formula
 
 
 Contour = Annotated[
@@ -91,6 +127,7 @@ Contour = Annotated[
     | SuperellipseContour
     | PolygonContour
     | SplineContour
-    | PolarContour,
-    by_type("circle", "ellipse", "superellipse", "polygon", "spline", "polar"),
+    | PolarContour
+    | FormulaContour,
+    by_type("circle", "ellipse", "superellipse", "polygon", "spline", "polar", "formula"),
 ]

@@ -21,6 +21,7 @@ from phantom.document.base import (
     same_place,
     told,
 )
+from phantom.document.formula_curves import FormulaAxis
 from phantom.document.rules import end_apart, neighbours_apart, rejection
 
 PLANE_TOLERANCE = 1e-6
@@ -174,6 +175,6 @@ class HelixAxis(Model):
 
 
 Axis = Annotated[
-    LineAxis | SplineAxis | BSplineAxis | ArcAxis | HelixAxis,
-    by_type("line", "spline", "bspline", "arc", "helix"),
+    LineAxis | SplineAxis | BSplineAxis | ArcAxis | HelixAxis | FormulaAxis,
+    by_type("line", "spline", "bspline", "arc", "helix", "formula"),
 ]

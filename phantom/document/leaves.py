@@ -15,11 +15,8 @@ from phantom.document.base import (
     refuse,
     told,
 )
-from phantom.document.contours import Contour
-from phantom.document.curves import Axis
 from phantom.document.leaf import Cut, LeafModel
 from phantom.document.rules import end_apart, parallel
-from phantom.document.sweeps import Frame, LinearSweep, Sweep
 
 
 class Sphere(LeafModel):
@@ -169,17 +166,3 @@ class Quadric(LeafModel):
         if not any(coefficients[:9]):
             refuse("degenerate", ((), "found 0 for all of A to I; expected a surface"))
         return coefficients
-
-
-class GeneralizedCylinder(LeafModel):
-    """A contour swept along a curved axis."""
-
-    type: Literal["generalized_cylinder"] = "generalized_cylinder"
-    axis: Annotated[Axis, told("Axis", "mm", "The curve a(u), u from 0 to 1.")]
-    contour: Annotated[Contour, told("Contour", "mm", "The closed curve cs(v) that is swept.")]
-    sweep: Annotated[
-        Sweep, told("Sweep", "1", "How the contour changes with u; left out, it does not.")
-    ] = LinearSweep()
-    frame: Annotated[
-        Frame, told("Frame", "none", "How the contour's axes n and b ride along the axis.")
-    ] = "rotation_minimizing"

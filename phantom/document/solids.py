@@ -21,6 +21,7 @@ from phantom.document.base import (
     refuse,
     told,
 )
+from phantom.document.generalized_cylinder import GeneralizedCylinder
 from phantom.document.leaf import LeafModel
 from phantom.document.leaves import (
     Box,
@@ -28,7 +29,6 @@ from phantom.document.leaves import (
     Cylinder,
     DoubleCone,
     Ellipsoid,
-    GeneralizedCylinder,
     Quadric,
     Sphere,
 )

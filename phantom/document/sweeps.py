@@ -2,69 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+import itertools
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
 
 from pydantic import field_validator
 
-from phantom.document.base import (
-    Coordinate,
-    Model,
-    Number,
-    Vector,
-    by_shape,
-    by_type,
-    direction,
-    refuse,
-    told,
-)
-
-
-class KnotProfile(Model):
-    """A C² cubic through knots; two knots are a line, three a parabola."""
-
-    knots: Annotated[
-        tuple[tuple[Number, Coordinate], ...],
-        told(
-            "Knots",
-            "u to the profile's own unit",
-            "Pairs [u, value]; u increases strictly from exactly 0 to exactly 1.",
-            min_length=2,
-        ),
-    ]
-
-    @field_validator("knots")
-    @classmethod
-    def _spans_the_axis(
-        cls, knots: tuple[tuple[float, float], ...]
-    ) -> tuple[tuple[float, float], ...]:
-        problems: list[tuple[tuple[str | int, ...], str]] = [
-            ((i, 0), f"found u = {knots[i][0]:g} after {knots[i - 1][0]:g}; expected u to increase")
-            for i in range(1, len(knots))
-            if not knots[i][0] > knots[i - 1][0]
-        ]
-        for index, end in ((0, 0.0), (len(knots) - 1, 1.0)):
-            if knots[index][0] != end:
-                name = "first" if index == 0 else "last"
-                message = (
-                    f"found u = {knots[index][0]:.17g}; expected the {name} knot at exactly {end:g}"
-                )
-                problems.append(((index, 0), message))
-        if problems:
-            refuse("bad_knots", *problems)
-        return knots
-
-
-_NUMBER_OR_KNOTS = "a number or an object with knots"
-
-Profile = Annotated[
-    Coordinate | KnotProfile,
-    by_shape("number", "object", expected=_NUMBER_OR_KNOTS),
-]
-
-Scale = Annotated[
-    Coordinate | KnotProfile | tuple[Profile, Profile],
-    by_shape("number", "object", "array", expected=_NUMBER_OR_KNOTS + ", or two of them"),
-]
+from phantom.document.base import Choice, Model, Vector, by_shape, direction, refuse, told
+from phantom.document.contours import Contour
+from phantom.document.formula_fields import FormulaInXYU, Parameter
+from phantom.document.profiles import Profile, Scale
 
 
 class LinearSweep(Model):
@@ -81,7 +28,102 @@ class LinearSweep(Model):
     ] = (0.0, 0.0)
 
 
-Sweep = Annotated[LinearSweep, by_type("linear")]
+MatrixRow = tuple[Profile, Profile, Profile]
+
+
+class MatrixSweep(Model):
+    """A linear sweep in the paper's form [x y 1] S(u), its matrix given."""
+
+    type: Literal["linear"] = "linear"
+    matrix: Annotated[
+        tuple[MatrixRow, MatrixRow, MatrixRow],
+        told(
+            "Matrix",
+            "1, the last row mm",
+            "Rows of S(u), for row vectors; the third column is 0, 0, 1.",
+        ),
+    ]
+
+    @field_validator("matrix")
+    @classmethod
+    def _third_column_is_constant(
+        cls, matrix: tuple[MatrixRow, MatrixRow, MatrixRow]
+    ) -> tuple[MatrixRow, MatrixRow, MatrixRow]:
+        problems: list[tuple[tuple[str | int, ...], str]] = []
+        for i, row in enumerate(matrix):
+            wanted = 1 if i == 2 else 0
+            if row[2] != wanted:
+                shown = f"{row[2]:g}" if isinstance(row[2], float) else "a profile"
+                problems.append(((i, 2), f"found {shown}; expected the number {wanted}"))
+        if problems:
+            refuse("bad_matrix", *problems)
+        return matrix
+
+
+class MorphSection(Model):
+    """A contour at one place of the axis."""
+
+    at: Annotated[Parameter, told("At", "none", "The u at which the section is this contour.")]
+    contour: Annotated[Contour, told("Contour", "mm", "The section there.")]
+
+
+class MorphSweep(Model):
+    """One contour turning into the next along the axis; it replaces the cylinder's contour."""
+
+    type: Literal["morph"] = "morph"
+    contours: Annotated[
+        tuple[MorphSection, ...],
+        told(
+            "Contours",
+            "none",
+            "Sections; at increases strictly from exactly the axis's first u to its last.",
+            min_length=2,
+            max_length=100,
+        ),
+    ]
+
+    @field_validator("contours")
+    @classmethod
+    def _increase(cls, contours: tuple[MorphSection, ...]) -> tuple[MorphSection, ...]:
+        problems: list[tuple[tuple[str | int, ...], str]] = []
+        for i, (before, section) in enumerate(itertools.pairwise(contours), 1):
+            if not section.at > before.at:
+                message = f"found u = {section.at:g} after {before.at:g}; expected u to increase"
+                problems.append(((i, "at"), message))
+        if problems:
+            refuse("bad_knots", *problems)
+        return contours
+
+
+class FormulaSweep(Model):
+    """Any map of the contour's plane, with its inverse, by formulas in x, y and u."""
+
+    type: Literal["formula"] = "formula"
+    forward: Annotated[
+        tuple[FormulaInXYU, FormulaInXYU],
+        told("Forward", "mm", "Where the contour's point [x, y] goes at u."),
+    ]
+    inverse: Annotated[
+        tuple[FormulaInXYU, FormulaInXYU],
+        told("Inverse", "mm", "The contour's point that goes to [x, y] at u."),
+    ]
+
+
+def _kind(value: Any) -> str | None:
+    """Name the kind of a sweep; a linear one with a matrix is a kind of its own."""
+    held = value if isinstance(value, Mapping) else getattr(value, "__dict__", {})
+    kind = held.get("type")
+    if kind == "linear":
+        return "matrix" if "matrix" in held else "linear"
+    return kind if kind in ("morph", "formula") else None
+
+
+Sweep = Annotated[
+    LinearSweep | MatrixSweep | MorphSweep | FormulaSweep,
+    Choice(
+        _kind, ("linear", "matrix", "morph", "formula"), "unknown_type", "linear, morph, formula"
+    ),
+]
 
 
 class UpFrame(Model):

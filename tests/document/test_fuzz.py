@@ -17,9 +17,11 @@ from phantom.errors import InvalidDocumentError
 
 KNEE_LIKE = json.loads((Path(__file__).parents[2] / "bench" / "knee-like.json").read_text())
 TYPES = [*LEAVES, *OPERATORS, "transformed", "instance", "line", "spline", "circle", "linear"]
+TYPES += ["formula", "morph", "polar", "polygon"]
 FIELDS = sorted(
     {name for model in LEAVES.values() for name in model.model_fields}
     | {"solids", "solid", "of", "materials", "definitions", "points", "knots", "scale", "format"}
+    | {"formula", "range", "x", "y", "forward", "inverse", "contours", "at", "radii"}
     | {"matrix", "rotate", "reference", "composition", "attenuation_per_mm", "findings", "degree"}
 )
 odd_numbers = st.sampled_from([float("nan"), float("inf"), 10**4000, -(10**400), 1e308, 5e-324, 0])
@@ -30,7 +32,7 @@ scalars = (
     | st.floats()
     | odd_numbers
     | st.text(st.characters(codec=None), max_size=5)
-    | st.sampled_from([*TYPES, "bone", "a", "phantom/1", "\ud800", "x" * 300])
+    | st.sampled_from([*TYPES, "bone", "a", "phantom/1", "\ud800", "x" * 300, "u**2", "u +"])
 )
 keys = st.sampled_from(["type", *FIELDS, "a"]) | st.text(st.characters(codec=None), max_size=3)
 trees = st.recursive(

@@ -35,6 +35,7 @@ AXES: dict[str, Tree] = {
     "spline": {"points": [[0, 0, 0], [0, 0, 1], [0, 1, 2]]},
     "bspline": {"control_points": [[0, 0, 0], [0, 0, 1], [0, 1, 2]], "degree": 2},
     "arc": {"center": [0, 0, 0], "normal": [0, 0, 1], "start": [5, 0, 0], "angle_deg": 90},
+    "formula": {"x": "5*cos(u)", "y": "5*sin(u)", "z": "u/2", "range": [0, 12.5]},
     "helix": {"center": [0, 0, 0], "axis": [0, 0, 1], "start": [5, 0, 0], "pitch": 3, "turns": -2},
 }
 CONTOURS: dict[str, Tree] = {
@@ -44,6 +45,14 @@ CONTOURS: dict[str, Tree] = {
     "polygon": {"points": [[0, 0], [1, 0], [0, 1]], "corner_radius": 0.1},
     "spline": {"points": [[1, 0], [0, 1], [-1, -1]]},
     "polar": {"radii": [1, 1, 1, 2]},
+    "formula": {"x": "2*cos(v)", "y": "sin(v)", "range": [-3.2, 3.2]},
+}
+IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+CIRCLES = [{"at": at, "contour": {"type": "circle", "radius": 1 + at}} for at in (0, 0.25, 1)]
+SWEEPS: dict[str, Tree] = {
+    "linear": {},
+    "morph": {"contours": CIRCLES},
+    "formula": {"forward": ["x + y*u", "y"], "inverse": ["x - y*u", "y"]},
 }
 
 
@@ -52,7 +61,7 @@ def whole(written: Callable[..., Tree]) -> Callable[[str, str, Tree], Tree]:
     """A document in which one part of a kind has fields changed (None: taken away)."""
 
     def make(part: str, kind: str, changes: Tree) -> Tree:
-        table = {"solid": LEAVES, "axis": AXES, "contour": CONTOURS}.get(part, {})
+        table = {"solid": LEAVES, "axis": AXES, "contour": CONTOURS, "sweep": SWEEPS}.get(part, {})
         made = {"type": kind, **table.get(kind, {}), **changes}
         made = {key: value for key, value in made.items() if value is not None}
         if part == "solid":
@@ -62,6 +71,8 @@ def whole(written: Callable[..., Tree]) -> Callable[[str, str, Tree], Tree]:
             "material": "bone",
             **LEAVES["generalized_cylinder"],
         }
+        if made["type"] == "morph":
+            del body["contour"]
         return written({**body, part: made})
 
     return make
@@ -73,7 +84,7 @@ def whole(written: Callable[..., Tree]) -> Callable[[str, str, Tree], Tree]:
         *(("solid", kind) for kind in LEAVES),
         *(("axis", kind) for kind in AXES),
         *(("contour", kind) for kind in CONTOURS),
-        ("sweep", "linear"),
+        *(("sweep", kind) for kind in SWEEPS),
     ],
 )
 def test_every_shape_is_read(part: str, kind: str, whole: Any, problems: Judge) -> None:
@@ -212,7 +223,15 @@ REFUSED: list[tuple[str, str, Tree, str, str, str]] = [
     ("contour", "superellipse", {"exponent": 21}, "/exponent", "out_of_range", "at most 20"),
     ("contour", "polygon", {"points": [[0, 0], [1, 0]]}, "/points", "wrong_length", "at least 3"),
     ("contour", "polygon", {"corner_radius": None}, "/corner_radius", "missing", "missing"),
-    ("contour", "polygon", {"corner_radius": 0}, "/corner_radius", "out_of_range", "found 0"),
+    ("contour", "polygon", {"corner_radius": -1}, "/corner_radius", "out_of_range", "found -1"),
+    (
+        "contour",
+        "polygon",
+        {"corner_radius": 1e-9},
+        "/corner_radius",
+        "out_of_range",
+        "found 1e-09; expected 0 or at least 1e-06",
+    ),
     (
         "contour",
         "polygon",
@@ -224,7 +243,8 @@ REFUSED: list[tuple[str, str, Tree, str, str, str]] = [
     ("contour", "spline", {"points": [[0, 0], [1, 0]]}, "/points", "wrong_length", "at least 3"),
     ("contour", "polar", {"radii": [1, 1]}, "/radii", "wrong_length", "at least 3"),
     ("contour", "polar", {"radii": [1, -1, 1]}, "/radii/1", "out_of_range", "found -1"),
-    ("sweep", "morph", {}, "/type", "unknown_type", "found 'morph'; expected one of linear"),
+    ("sweep", "bend", {}, "/type", "unknown_type", "'bend'; expected one of linear, morph, form"),
+    ("sweep", "matrix", {}, "/type", "unknown_type", "found 'matrix'; expected one of linear"),
     ("sweep", "linear", {"scale": "big"}, "/scale", "not_a_number", "found 'big'"),
     ("sweep", "linear", {"scale": [1, True]}, "/scale/1", "not_a_number", "found true"),
     ("sweep", "linear", {"offset": [1]}, "/offset", "wrong_length", "found 1 value; expected 2"),
