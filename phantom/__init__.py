@@ -28,7 +28,7 @@ if TYPE_CHECKING:
         radiograph,
     )
     from phantom.scene import Phantom, load
-    from phantom.tracing import Intervals, intervals, path_lengths
+    from phantom.tracing import Intervals, intervals, materials_at, path_lengths
 
     __version__: str
 
@@ -50,6 +50,7 @@ __all__ = [
     "intervals",
     "library",
     "load",
+    "materials_at",
     "path_lengths",
     "preset_view",
     "radiograph",
@@ -74,7 +75,7 @@ _HOMES = {
         "radiograph",
     ),
     "phantom.scene": ("Phantom", "load"),
-    "phantom.tracing": ("Intervals", "intervals", "path_lengths"),
+    "phantom.tracing": ("Intervals", "intervals", "materials_at", "path_lengths"),
 }
 _HOME = {name: home for home, found in _HOMES.items() for name in found}
 

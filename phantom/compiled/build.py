@@ -144,8 +144,16 @@ def build(document: doc.Document) -> Compiled:
 
 def _box(leaf: PlacedLeaf) -> Floats:
     if isinstance(leaf.shape, Cylinder):
-        points = leaf.shape.outline
-        return np.stack([points.min(axis=0), points.max(axis=0)])
+        points, corners = leaf.shape.outline, leaf.shape.boxes_corners()
+        box = np.stack([points.min(axis=0), points.max(axis=0)])
+        # What a sample may miss between its points, and never beyond the segments' own boxes.
+        pad = 1e-3 * float(np.ptp(box, axis=0).min())
+        return np.stack(
+            [
+                np.maximum(box[0] - pad, corners.min(axis=0)),
+                np.minimum(box[1] + pad, corners.max(axis=0)),
+            ]
+        )
     assert leaf.shape is not None
     return bounds(leaf.shape)
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from phantom import document as doc
 from phantom.compiled.changing import ChangingSection, ChangingTable, changing_tables
 from phantom.compiled.hessians import Bounds, hessian_bounds
+from phantom.compiled.overlap import Traced, check_global_overlap
 from phantom.compiled.sections import CircleSection, StarSection
 from phantom.compiled.segments import Segments, segments
 from phantom.compiled.tables import StarTable, star_table
@@ -100,12 +101,14 @@ def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | No
             raise RefusalError(
                 "/cuts", "too_many", f"{len(cuts.offsets)} cuts; expected at most {MAX_CUTS}"
             )
-        parts, outlines = [], []
+        parts, outlines, traced = [], [], []
         for shape in shapes:
             check_closing(shape)
             part, outline = _part(shape, tolerance)
             parts.append(part)
             outlines.append(outline)
+            traced.append(Traced(shape, part.segments, part.tables))
+        check_global_overlap(traced)
         return Cylinder(tuple(parts), np.concatenate(outlines), cuts), []
     except RefusalError as refusal:
         return None, [refusal.problem]
@@ -135,7 +138,7 @@ def _outline(shape: Shape, knots: Floats) -> tuple[Floats, float]:
         np.searchsorted(shape.curve.breaks, u, side="right") - 1, 0, len(shape.curve.breaks) - 2
     )
     at = shape.sections(u, piece)
-    phi = shape.hull(u, 64)
+    phi = shape.points(u, 256)
     phi = np.broadcast_to(phi, (len(u), *phi.shape[1:]))
     points = at.middle[:, None] + np.einsum("nij,nvj->nvi", at.spread, phi)
     stretch = float(np.linalg.norm(at.spread, ord=2, axis=(1, 2)).max())

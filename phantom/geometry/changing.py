@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline
 from phantom import document as doc
 from phantom.geometry.contours import Contour, check_simple, plane_outline, star
 from phantom.geometry.refusal import RefusalError
-from phantom.geometry.star import kinks, monotone_cells, radii
+from phantom.geometry.star import chart_rays, kinks, monotone_cells, radii
 
 Floats = NDArray[np.float64]
 
@@ -102,11 +102,7 @@ def _radii(contour: Contour, T: Floats) -> Floats:
     """Return the radius in mm at pseudo-angles."""
     if contour.outline is None:
         return np.full(len(T), contour.matrix[0, 0])
-    chart = np.minimum(T // 2, 3).astype(np.intp)
-    t = T - 2.0 * chart - 1.0
-    ray = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])[chart]
-    across = np.stack([-ray[:, 1], ray[:, 0]], axis=-1)
-    return np.asarray(radii(contour.outline, ray + t[:, None] * across) * contour.matrix[0, 0])
+    return np.asarray(radii(contour.outline, chart_rays(T)) * contour.matrix[0, 0])
 
 
 def morph(sweep: doc.MorphSweep) -> Morph:

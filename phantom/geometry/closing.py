@@ -25,7 +25,7 @@ def check_closing(shape: Shape) -> None:
         return
     ends = shape.breaks[[0, -1]]
     at = shape.sections(ends, np.array([0, len(shape.curve.breaks) - 2]))
-    phi = shape.hull(ends[:1], 256)[0]
+    phi = shape.points(ends[:1], 256)[0]
     # The first section's points, seen from the last section, must lie on the contour.
     points = at.middle[0] + phi @ at.spread[0].T
     seen = (points - at.middle[1]) @ at.inverse[1].T

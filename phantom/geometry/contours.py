@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from phantom import document as doc
+from phantom.geometry.formula_curves import formula_outline, polar_formula_outline
 from phantom.geometry.outlines import (
     CircleOutline,
+    EdgesOutline,
     Outline,
     PlacedOutline,
     PolarOutline,
@@ -67,6 +69,20 @@ def outline_samples(outline: Outline, count: int) -> Floats:
     return outline.derivatives(v.ravel(), piece)
 
 
+def outline_hull(outline: Outline, count: int) -> tuple[Floats, float]:
+    """Return points ``(1, n, 2)`` of an outline and how far it reaches beyond their hull.
+
+    Between two samples a curve stays within ``max |c''| dv^2 / 8`` of their chord; half as much
+    again covers what c'' does between them.
+    """
+    breaks = outline.breaks
+    each = max(4, int(np.ceil(count / (len(breaks) - 1))))
+    points, _, second = outline_samples(outline, count)
+    step = np.repeat(np.diff(breaks), each) / each
+    sagitta = np.linalg.norm(second, axis=1) * step**2 / 8
+    return points[None], 1.5 * float(sagitta.max()) + 1e-9
+
+
 def contours(spec: doc.Contour) -> tuple[Contour, ...]:
     """Turn a contour of a document into star-shaped parts: one, unless no point sees it whole.
 
@@ -103,11 +119,16 @@ def plane_outline(spec: doc.Contour) -> Outline:
             return ScaledOutline(
                 SuperellipseOutline(float(spec.exponent)), _diagonal(spec.semi_axes)
             )
+        case doc.PolarContour() if spec.formula is not None:
+            polar = polar_formula_outline(spec.formula)
+            _check_polar(polar, "formula")
+            return polar
         case doc.PolarContour():
+            assert spec.radii is not None
             radii = np.array([*spec.radii, spec.radii[0]], dtype=np.float64)
             theta = np.linspace(0.0, 2 * np.pi, len(radii))
             outline: Outline = PolarOutline(CubicSpline(theta, radii, bc_type="periodic"))
-            _check_polar(outline)
+            _check_polar(outline, "radii")
             return outline
         case doc.SplineContour():
             points = np.array([*spec.points, spec.points[0]], dtype=np.float64)
@@ -117,9 +138,11 @@ def plane_outline(spec: doc.Contour) -> Outline:
         case doc.PolygonContour():
             points = np.array(spec.points, dtype=np.float64)
             return _rounded(points, float(spec.corner_radius))
+        case doc.FormulaContour():
+            return formula_outline(spec)
 
 
-def _check_polar(outline: Outline) -> None:
+def _check_polar(outline: Outline, field: str) -> None:
     """Refuse a polar spline that swings through zero between its radii."""
     samples = outline_samples(outline, 4096)
     breaks = outline.breaks
@@ -129,9 +152,9 @@ def _check_polar(outline: Outline) -> None:
     lowest = int(np.argmin(radius))
     if radius[lowest] <= 0:
         raise RefusalError(
-            "/contour/radii",
+            f"/contour/{field}",
             "crossing_contour",
-            f"the curve through the radii reaches r = {radius[lowest]:.4g} mm at theta = "
+            f"the radius reaches r = {radius[lowest]:.4g} mm at theta = "
             f"{np.degrees(theta[lowest]):.4g} degrees; expected r > 0 all round",
         )
 
@@ -150,6 +173,12 @@ def _rounded(points: Floats, radius: float) -> Outline:
     turn = np.arctan2(
         into[:, 0] * out[:, 1] - into[:, 1] * out[:, 0], np.einsum("ij,ij->i", into, out)
     )
+    straight = np.abs(turn) < 1e-12
+    if straight.any():
+        # A corner that does not turn is none.
+        return _rounded(points[~straight], radius)
+    if radius == 0:
+        return EdgesOutline(points)
     reach = radius * np.tan(np.minimum(np.abs(turn), np.pi - 1e-9) / 2)
     needed = reach + np.roll(reach, -1)
     worst = int(np.argmax(needed - lengths))

@@ -16,6 +16,7 @@ from scipy.interpolate import BSpline, CubicSpline, PPoly
 
 from phantom import document as doc
 from phantom.geometry import tolerances
+from phantom.geometry.formula_curves import formula_curve
 from phantom.geometry.refusal import RefusalError
 
 Floats = NDArray[np.float64]
@@ -181,6 +182,8 @@ def curve(axis: doc.Axis) -> Curve:
             result = _arc(axis)
         case doc.HelixAxis():
             result = _helix(axis)
+        case doc.FormulaAxis():
+            result = formula_curve(axis)
     _check(result)
     return result
 

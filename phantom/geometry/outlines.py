@@ -178,6 +178,24 @@ class RoundedOutline:
 
 
 @dataclass(frozen=True)
+class EdgesOutline:
+    """A polygon with sharp corners; edge k runs over k <= v <= k + 1."""
+
+    points: Floats  # (corners, 2)
+
+    @property
+    def breaks(self) -> Floats:
+        """The corners."""
+        return np.arange(len(self.points) + 1.0)
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Evaluate the edges linearly."""
+        start = self.points[piece]
+        edge = np.roll(self.points, -1, axis=0)[piece] - start
+        return np.stack([start + (v - piece)[:, None] * edge, edge, np.zeros_like(edge)])
+
+
+@dataclass(frozen=True)
 class PlacedOutline:
     """An outline given in the contour plane, moved to unit coordinates about a centre."""
 

@@ -111,10 +111,11 @@ def _halved(outline: Outline, loop: Loop) -> list[Loop] | None:
     """Cut a loop in two along the shortest chord that leaves a fair part on both sides."""
     sampled = [arc.sampled(outline, _SAMPLES) for arc in loop]
     points = np.concatenate([p[:-1] for _, p in sampled])
-    area = _area(points)
-    middle, spread = points.mean(axis=0), np.cov(points.T)
+    owner = np.repeat(np.arange(len(loop)), [len(p) - 1 for _, p in sampled])
+    area = abs(_area(points))
+    spread = np.cov(points.T)
     long = np.linalg.eigh(spread)[1][:, 1]
-    best: tuple[float, list[Loop]] | None = None
+    best: tuple[float, Floats, float, tuple[int, int]] | None = None
     # Lines across the long direction first, turned a little for those that touch corners.
     for turn in (0.0, 0.4, -0.4, 0.8, -0.8, 1.2, -1.2, np.pi / 2):
         normal = np.array(
@@ -123,16 +124,50 @@ def _halved(outline: Outline, loop: Loop) -> list[Loop] | None:
                 np.sin(turn) * long[0] + np.cos(turn) * long[1],
             ]
         )
-        heights = (points - middle) @ normal
+        heights = points @ normal
         for level in np.quantile(heights, [0.5, 0.35, 0.65, 0.2, 0.8]) + 1e-7 * np.ptp(heights):
-            for halves, length in _cuts(outline, loop, sampled, normal, middle @ normal + level):
-                shares = [abs(_area(_loop_points(outline, h))) / abs(area) for h in halves]
-                if min(shares) < 0.02:
-                    continue
-                cost = length / np.sqrt(min(shares))
-                if best is None or cost < best[0]:
-                    best = (cost, halves)
-    return None if best is None else best[1]
+            for ends, length, share in _chords(points, heights - level, normal):
+                smaller = min(share, area - share) / area
+                cost = length / np.sqrt(max(smaller, 1e-9))
+                if smaller >= 0.02 and (best is None or cost < best[0]):
+                    best = (cost, normal, float(level), ends)
+    if best is None:
+        return None
+    _, normal, level, ends = best
+    starts = np.concatenate([[0], np.cumsum([len(p) - 1 for _, p in sampled])])
+    brackets = []
+    for k in ends:
+        v = sampled[owner[k]][0]
+        local = k - starts[owner[k]]
+        rising = points[k] @ normal < level
+        brackets.append((int(owner[k]), float(v[local]), float(v[local + 1]), bool(rising)))
+    return _cut(
+        outline, loop, brackets, normal, level, OVERLAP * float(np.ptp(points, axis=0).max())
+    )
+
+
+def _chords(
+    points: Floats, heights: Floats, normal: Floats
+) -> list[tuple[tuple[int, int], float, float]]:
+    """Chords of a sampled loop along a line: sample before each end, length, area on one side."""
+    after = np.roll(heights, -1)
+    crossing = np.flatnonzero(heights * after < 0)
+    if len(crossing) < 2 or len(crossing) % 2 or np.any(heights == 0):
+        return []
+    share = heights[crossing] / (heights[crossing] - after[crossing])
+    following = np.roll(points, -1, axis=0)
+    met = points[crossing] + share[:, None] * (following[crossing] - points[crossing])
+    along = np.array([-normal[1], normal[0]])
+    order = np.argsort(met @ along)
+    # Between the first and the second crossing the line is inside, between the third and fourth...
+    result = []
+    for one, two in zip(order[::2], order[1::2], strict=True):
+        first, last = sorted((one, two))
+        between = points[crossing[first] + 1 : crossing[last] + 1]
+        side = np.vstack([met[first][None], between, met[last][None]])
+        ends = (int(crossing[one]), int(crossing[two]))
+        result.append((ends, float(np.linalg.norm(met[two] - met[one])), abs(_area(side))))
+    return result
 
 
 def _area(points: Floats) -> float:
@@ -140,51 +175,25 @@ def _area(points: Floats) -> float:
     return float(0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
-def _loop_points(outline: Outline, loop: Loop) -> Floats:
-    return np.concatenate([arc.sampled(outline, _SAMPLES)[1][:-1] for arc in loop])
-
-
-def _cuts(
+def _cut(
     outline: Outline,
     loop: Loop,
-    sampled: list[tuple[Floats, Floats]],
+    brackets: list[tuple[int, float, float, bool]],
     normal: Floats,
     level: float,
-) -> list[tuple[list[Loop], float]]:
-    """Return the two-part cuts of a loop along one line, with the lengths of their chords.
-
-    Each part is cut a little beyond the line, so that the two overlap there.
-    """
-    brackets = []
-    size = 0.0
-    for index, (arc, (v, p)) in enumerate(zip(loop, sampled, strict=True)):
-        height = p @ normal - level
-        size = max(size, float(np.abs(height).max()))
-        for k in np.flatnonzero(height[:-1] * height[1:] < 0):
-            brackets.append((index, arc, v[k], v[k + 1], height[k]))
-    if len(brackets) < 2 or len(brackets) % 2:
-        return []
-    beyond = size * OVERLAP
-    if min(abs(b[4]) for b in brackets) <= 4 * beyond:
-        return []
-    along = np.array([-normal[1], normal[0]])
-    met = [_meet(outline, arc, low, high, normal, level) for _, arc, low, high, _ in brackets]
-    order = sorted(range(len(met)), key=lambda k: float(met[k][1] @ along))
-    # Between the first and the second crossing the line is inside, between the third and fourth...
-    result = []
-    for one, two in zip(order[::2], order[1::2], strict=True):
-        halves = []
-        for first, last in ((one, two), (two, one)):
-            # Coming from below the line, the outline goes on above it.
-            above = brackets[first][4] < 0
-            at = level - beyond if above else level + beyond
-            ends = [
-                (brackets[k][0], *_meet(outline, *brackets[k][1:4], normal, at))
-                for k in (first, last)
-            ]
-            halves.append(_side(loop, ends[0], ends[1]))
-        result.append((halves, float(np.linalg.norm(met[two][1] - met[one][1]))))
-    return result
+    beyond: float,
+) -> list[Loop]:
+    """Cut a loop in two along one chord; each part reaches a little beyond the line."""
+    halves = []
+    for first, last in ((0, 1), (1, 0)):
+        # Where the outline rises through the line, the part that follows lies above it.
+        at = level - beyond if brackets[first][3] else level + beyond
+        ends = []
+        for k in (first, last):
+            index, low, high, _ = brackets[k]
+            ends.append((index, *_meet(outline, loop[index], low, high, normal, at)))
+        halves.append(_side(loop, ends[0], ends[1]))
+    return halves
 
 
 def _meet(

@@ -29,6 +29,14 @@ def pseudo_angle(points: Floats) -> Floats:
     return np.asarray(2.0 * chart + t + 1.0)
 
 
+def chart_rays(T: Floats) -> Floats:
+    """Return a vector ``(n, 2)`` of each pseudo-angle, with major coordinate 1."""
+    chart = np.minimum(T // 2, 3).astype(np.intp)
+    t = T - 2.0 * chart - 1.0
+    turn = _TURNS[chart]
+    return np.asarray(turn + t[:, None] * np.stack([-turn[:, 1], turn[:, 0]], axis=-1))
+
+
 def monotone_cells(outline: Outline) -> tuple[Floats, Floats, Ints]:
     """Cut [0, 8] at the outline's breaks and at the ends of the charts."""
     breaks = outline.breaks

@@ -15,17 +15,39 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from phantom import document as doc
 from phantom.geometry import tolerances
+from phantom.geometry.formula_curves import check_values, formula_breaks
+from phantom.geometry.formulas import Formula
 from phantom.geometry.refusal import RefusalError
 
 Floats = NDArray[np.float64]
-Profile = float | PPoly
 
 
-def profile(value: doc.Profile) -> Profile:
-    """Turn a profile of a document into a number or a C2 cubic through its knots."""
+@dataclass(frozen=True)
+class FormulaProfile:
+    """A profile by a formula in u, with the places where it changes its branch."""
+
+    formula: Formula
+    x: Floats  # like the knots of a spline
+
+    def __call__(self, u: Floats) -> Floats:
+        """Return the values at u."""
+        return np.broadcast_to(self.formula.values(u=u), u.shape)
+
+
+Profile = float | PPoly | FormulaProfile
+Span = tuple[float, float]
+
+
+def profile(value: doc.Profile, span: Span, path: str) -> Profile:
+    """Turn a profile of a document into a number, a C2 cubic through knots, or a formula of u."""
     if isinstance(value, doc.KnotProfile):
         knots = np.array(value.knots, dtype=np.float64)
         return CubicSpline(knots[:, 0], knots[:, 1], bc_type="not-a-knot")
+    if isinstance(value, doc.FormulaProfile):
+        formula = Formula.of(value.formula, "u")
+        breaks = formula_breaks([formula], "u", *span, 8)
+        check_values(formula, "u", breaks, f"{path}/formula")
+        return FormulaProfile(formula, breaks)
     return float(value)
 
 
@@ -43,13 +65,12 @@ class LinearSweep:
     rotate_deg: Profile
     shear: Profile
     offset: tuple[Profile, Profile]
+    span: Span
 
     @property
     def breaks(self) -> Floats:
-        """Parameters where the third derivative of a profile may jump, 0 and 1 included."""
-        profiles = (*self.scale, self.rotate_deg, self.shear, *self.offset)
-        knots = [p.x for p in profiles if not isinstance(p, float)]
-        return np.unique(np.concatenate([[0.0, 1.0], *knots]))
+        """Parameters where a derivative of a profile may jump, both ends included."""
+        return _breaks((*self.scale, self.rotate_deg, self.shear, *self.offset), self.span)
 
     @property
     def is_round(self) -> bool:
@@ -77,25 +98,73 @@ class LinearSweep:
         return matrix, np.stack([_at(self.offset[0], u), _at(self.offset[1], u)], axis=-1)
 
 
-def linear_sweep(sweep: doc.LinearSweep) -> LinearSweep:
-    """Turn a linear sweep of a document into profiles, or refuse it.
+@dataclass(frozen=True)
+class MatrixSweep:
+    """The paper's row-vector form, ``[x y 1] S(u)``, by the six entries that are not constant."""
+
+    entries: tuple[tuple[Profile, Profile], ...]  # three rows of two
+    span: Span
+    is_round = False
+
+    @property
+    def breaks(self) -> Floats:
+        """Parameters where a derivative of an entry may jump, both ends included."""
+        return _breaks(tuple(entry for row in self.entries for entry in row), self.span)
+
+    def maps(self, u: Floats) -> tuple[Floats, Floats]:
+        """Return the column matrices ``(n, 2, 2)`` and the offsets ``(n, 2)`` in mm at u."""
+        rows = np.stack([np.stack([_at(e, u) for e in row], axis=-1) for row in self.entries])
+        # A row vector times S is the transpose of S times a column.
+        return np.ascontiguousarray(np.moveaxis(rows[:2], 0, 2)), rows[2]
+
+
+AnyLinear = LinearSweep | MatrixSweep
+
+
+def _breaks(profiles: tuple[Profile, ...], span: Span) -> Floats:
+    knots = [p.x for p in profiles if not isinstance(p, float)]
+    return np.unique(np.concatenate([np.array(span), *knots]))
+
+
+def linear_sweep(sweep: doc.LinearSweep | doc.MatrixSweep, span: Span = (0.0, 1.0)) -> AnyLinear:
+    """Turn a linear sweep of a document into profiles over the axis's range, or refuse it.
 
     Raises
     ------
     RefusalError
-        At ``/sweep``, where the map is singular or nearly so, with u and the figure.
+        At ``/sweep``, where the map is singular or nearly so, with u and the figure; below it,
+        where a formula has no value.
     """
-    if isinstance(sweep.scale, tuple):
-        scale = (profile(sweep.scale[0]), profile(sweep.scale[1]))
+    result: AnyLinear
+    if isinstance(sweep, doc.MatrixSweep):
+        rows = [
+            tuple(profile(entry, span, f"/sweep/matrix/{i}/{j}") for j, entry in enumerate(row[:2]))
+            for i, row in enumerate(sweep.matrix)
+        ]
+        result = MatrixSweep(tuple((row[0], row[1]) for row in rows), span)
     else:
-        both = profile(sweep.scale)
-        scale = (both, both)
-    result = LinearSweep(
-        scale,
-        profile(sweep.rotate_deg),
-        profile(sweep.shear),
-        (profile(sweep.offset[0]), profile(sweep.offset[1])),
-    )
+        if isinstance(sweep.scale, tuple):
+            scale = (
+                profile(sweep.scale[0], span, "/sweep/scale/0"),
+                profile(sweep.scale[1], span, "/sweep/scale/1"),
+            )
+        else:
+            both = profile(sweep.scale, span, "/sweep/scale")
+            scale = (both, both)
+        offset = [profile(o, span, f"/sweep/offset/{i}") for i, o in enumerate(sweep.offset)]
+        result = LinearSweep(
+            scale,
+            profile(sweep.rotate_deg, span, "/sweep/rotate_deg"),
+            profile(sweep.shear, span, "/sweep/shear"),
+            (offset[0], offset[1]),
+            span,
+        )
+    _check_invertible(result)
+    return result
+
+
+def _check_invertible(result: AnyLinear) -> None:
+    """Refuse a sweep that is singular, nearly so, or absurdly large."""
     breaks = result.breaks
     u = np.concatenate([np.linspace(a, b, 65) for a, b in itertools.pairwise(breaks)])
     matrix, _ = result.maps(u)
@@ -120,4 +189,3 @@ def linear_sweep(sweep: doc.LinearSweep) -> LinearSweep:
             f"the sweep is singular near u = {u[worst]:.6g}: its smallest stretch is {figure:.3g} "
             f"of the largest along the axis; expected at least {tolerances.SINGULAR_SWEEP:g}",
         )
-    return result

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,15 +12,19 @@ from numpy.typing import NDArray
 from phantom import document as doc
 from phantom.errors import Problem
 from phantom.geometry.changing import Sections as ChangingSections
-from phantom.geometry.contours import Contour, contours
+from phantom.geometry.changing import morph
+from phantom.geometry.contours import Contour, contours, outline_hull, plane_outline
 from phantom.geometry.curves import Curve, curve
+from phantom.geometry.formula_sweeps import formula_sections
 from phantom.geometry.frames import Frame, RotationMinimizingFrame, frame, rotation_minimizing
 from phantom.geometry.polynomials import interpolation_matrix, lobatto_nodes
 from phantom.geometry.refusal import RefusalError
-from phantom.geometry.sweeps import LinearSweep, linear_sweep
+from phantom.geometry.star import chart_rays, radii
+from phantom.geometry.sweeps import AnyLinear, linear_sweep
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+Built = TypeVar("Built")
 
 
 @dataclass(frozen=True)
@@ -39,12 +44,23 @@ class Sections:
 
 
 @dataclass(frozen=True)
+class Hull:
+    """Points of a contour in unit coordinates, and how far it may reach beyond their hull.
+
+    ``points`` is ``(n or 1, P, 2)``, or None for the unit circle.
+    """
+
+    points: Floats | None
+    margin: float
+
+
+@dataclass(frozen=True)
 class SweptShape:
     """Axis, frame, sweep and contour of one generalized cylinder."""
 
     curve: Curve
     frame: Frame
-    sweep: LinearSweep
+    sweep: AnyLinear
     contour: Contour
 
     @property
@@ -52,14 +68,21 @@ class SweptShape:
         """All parameters where a derivative of axis or sweep may jump."""
         return merged_breaks(self.curve.breaks, self.sweep.breaks)
 
-    @property
-    def is_circle(self) -> bool:
-        """Whether the contour is the unit circle in unit coordinates."""
-        return self.contour.outline is None
-
-    def hull(self, u: Floats, count: int) -> Floats:
+    def points(self, u: Floats, count: int) -> Floats:
         """Return points of the contour in unit coordinates at each u, ``(n or 1, count', 2)``."""
         return self.contour.unit_points(count)[None]
+
+    def hull(self, u: Floats, count: int) -> Hull:
+        """Return what holds the contour at each u."""
+        if self.contour.outline is None:
+            return Hull(None, 0.0)
+        return Hull(*outline_hull(self.contour.outline, count))
+
+    def unit_radii(self, T: Floats, u: Floats) -> Floats:
+        """Return the contour's radius in unit coordinates at pseudo-angles, each with its u."""
+        if self.contour.outline is None:
+            return np.ones(len(T))
+        return radii(self.contour.outline, chart_rays(T))
 
     def pieces(self, breaks: Floats) -> Ints:
         """Return the axis piece over each interval of ``breaks``."""
@@ -90,21 +113,23 @@ class ChangingShape:
         """All parameters where a derivative of axis or section may jump."""
         return merged_breaks(self.curve.breaks, self.changing.breaks)
 
-    @property
-    def is_circle(self) -> bool:
-        """Never: the section is a table."""
-        return False
+    def hull(self, u: Floats, count: int) -> Hull:
+        """Return what holds the section at each u."""
+        points = self.points(u, count)
+        # The sagitta of the arc between two samples, from second differences; corners overdo it.
+        bends = np.roll(points, 1, axis=1) - 2 * points + np.roll(points, -1, axis=1)
+        return Hull(points, 0.25 * float(np.linalg.norm(bends, axis=-1).max()))
 
-    def hull(self, u: Floats, count: int) -> Floats:
+    def points(self, u: Floats, count: int) -> Floats:
         """Return points of each section in unit coordinates, ``(n, count, 2)``."""
         T = 8.0 * np.arange(count) / count
-        chart = np.minimum(T // 2, 3).astype(np.intp)
-        t = T - 2.0 * chart - 1.0
-        ray = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])[chart]
-        across = np.stack([-ray[:, 1], ray[:, 0]], axis=-1)
-        direction = (ray + t[:, None] * across) / np.hypot(1.0, t)[:, None]
-        radius = self.changing.radii(T, u) / self.unit
-        return np.asarray(radius.T[..., None] * direction)
+        rays = chart_rays(T)
+        directions = rays / np.linalg.norm(rays, axis=1)[:, None]
+        return np.asarray((self.changing.radii(T, u) / self.unit).T[..., None] * directions)
+
+    def unit_radii(self, T: Floats, u: Floats) -> Floats:
+        """Return the contour's radius in unit coordinates at pseudo-angles, each with its u."""
+        return np.asarray(np.diagonal(self.changing.radii(T, u)) / self.unit)
 
     def pieces(self, breaks: Floats) -> Ints:
         """Return the axis piece over each interval of ``breaks``."""
@@ -124,9 +149,11 @@ class ChangingShape:
             T, np.clip(middle + half * nodes, start[:, None], end[:, None]).ravel()
         )
         truth = self.changing.radii(T, (middle + half * checks).ravel())
+        # Tables hold 1 / r^2 (the gauge): an error of it moves the radius by r^3 / 2 of it.
         powers = np.vander(checks, len(nodes), increasing=True) @ interpolation_matrix()
-        found = known.reshape(len(T), len(start), -1) @ powers.T
-        return np.asarray(np.abs(found - truth.reshape(found.shape)).max(axis=(0, 2)))
+        found = known.reshape(len(T), len(start), -1) ** -2.0 @ powers.T
+        truth = truth.reshape(found.shape)
+        return np.asarray((0.5 * truth**3 * np.abs(found - truth**-2.0)).max(axis=(0, 2)))
 
 
 Shape = SweptShape | ChangingShape
@@ -167,32 +194,44 @@ def swept_shapes(leaf: doc.GeneralizedCylinder) -> tuple[list[Shape], list[Probl
     Paths are below the leaf. Most contours have one part.
     """
     problems: list[Problem] = []
-    parts: list[Any] = []
-    for build in (
-        lambda: curve(leaf.axis),
-        lambda: contours(leaf.contour),
-        lambda: linear_sweep(leaf.sweep),
-    ):
+
+    def tried(build: Callable[[], Built]) -> Built | None:
         try:
-            parts.append(build())
+            return build()
         except RefusalError as refusal:
             problems.append(refusal.problem)
-            parts.append(None)
-    axis, sections, sweep = parts
-    around = None
-    if axis is not None:
-        try:
-            around = frame(leaf.frame, axis)
-        except RefusalError as refusal:
-            problems.append(refusal.problem)
-    if problems or around is None:
+            return None
+
+    axis = tried(lambda: curve(leaf.axis))
+    section = tried(lambda: _section(leaf))
+    around = None if axis is None else tried(lambda: frame(leaf.frame, axis))
+    if problems or axis is None or around is None or section is None:
         return [], problems
-    if sections[0].outline is None:
-        around = _plain_frame(sections[0], sweep, axis, around)
-    return [SweptShape(axis, around, sweep, section) for section in sections], []
+    if isinstance(section, tuple):
+        sweep, parts = section
+        if parts[0].outline is None:
+            around = _plain_frame(parts[0], sweep, axis, around)
+        return [SweptShape(axis, around, sweep, part) for part in parts], []
+    u = np.linspace(axis.breaks[0], axis.breaks[-1], 257)
+    unit = 1.02 * float(section.radii(8.0 * np.arange(64) / 64, u).max())
+    return [ChangingShape(axis, around, section, unit)], []
 
 
-def _plain_frame(section: Contour, sweep: LinearSweep, axis: Curve, around: Frame) -> Frame:
+def _section(
+    leaf: doc.GeneralizedCylinder,
+) -> tuple[AnyLinear, tuple[Contour, ...]] | ChangingSections:
+    """Read sweep and contour: a fixed contour under a linear map, or sections that change."""
+    span = doc.parameter_range(leaf.axis)
+    if isinstance(leaf.sweep, doc.MorphSweep):
+        return morph(leaf.sweep)
+    assert leaf.contour is not None
+    if isinstance(leaf.sweep, doc.FormulaSweep):
+        return formula_sections(leaf.sweep, plane_outline(leaf.contour), span)
+    sweep = linear_sweep(leaf.sweep, span)
+    return sweep, contours(leaf.contour)
+
+
+def _plain_frame(section: Contour, sweep: AnyLinear, axis: Curve, around: Frame) -> Frame:
     """A circle that stays a circle about the axis may be drawn in the smoothest frame."""
     if (
         section.matrix[0, 0] == section.matrix[1, 1]

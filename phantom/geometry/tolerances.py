@@ -8,6 +8,9 @@ SURFACE_MM = 1e-8
 FIT_SHARE = 0.6
 """Share of :data:`SURFACE_MM` given to the fit of segments; the rest is the contour table's."""
 
+OVERLAP_MM = 1e-6
+"""A generalized cylinder may run into itself no deeper than this."""
+
 CHORD_MM = 1e-3
 """No chord of the traced surface longer than this is lost."""
 

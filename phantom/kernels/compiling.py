@@ -6,8 +6,11 @@ of them are kept in one folder named after all of their sources: a change anywhe
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import os
+import shutil
+import stat
 import tempfile
 from collections.abc import Callable
 from functools import cache
@@ -24,7 +27,7 @@ def cache_folder() -> str:
     """Return the folder of compiled kernels, made if need be.
 
     It lies in ``NUMBA_CACHE_DIR`` where that is set, else in the user's cache folder, else, where
-    there is no home to write to, in a private folder of the system's temporary one.
+    there is no home to write to, in a folder of the user's own under the system's temporary one.
     """
     here = Path(__file__).parent
     digest = hashlib.sha256()
@@ -42,7 +45,29 @@ def cache_folder() -> str:
             continue
         if os.access(folder, os.W_OK):
             return str(folder)
-    return tempfile.mkdtemp(prefix="phantom-xray-")
+    return _shared_temporary(name)
+
+
+def _shared_temporary(name: str) -> str:
+    """Return a folder of this user alone under the system's temporary one.
+
+    Compiled kernels are run as they are found: a folder that anybody else could have written to,
+    or a link, is never used; then one is made for this process and removed with it.
+    """
+    user = os.getuid() if hasattr(os, "getuid") else 0
+    root = Path(tempfile.gettempdir()) / f"phantom-xray-{user}"
+    try:
+        root.mkdir(mode=0o700, exist_ok=True)
+        found = root.lstat()
+        private = stat.S_ISDIR(found.st_mode) and not found.st_mode & 0o077
+        if private and found.st_uid == user:
+            (root / name).mkdir(exist_ok=True)
+            return str(root / name)
+    except OSError:
+        pass
+    folder = tempfile.mkdtemp(prefix="phantom-xray-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
 
 
 def kernel(function: Kernel) -> Kernel:

@@ -248,6 +248,8 @@ def cylinder_leaf(
     """Add the intervals of a generalized cylinder within [low, high] (both about ``shift``)."""
     start = count
     first, last = scene.first_part[leaf], scene.first_part[leaf + 1]
+    # What is left of a chord in the next part may be far shorter than the chord itself.
+    least = shortest if last - first == 1 else 1e-5 * shortest
     for part in range(first, last):
         count = cylinder_part(
             scene,
@@ -262,7 +264,7 @@ def cylinder_leaf(
             low,
             high,
             shift,
-            shortest,
+            least,
             count,
             entries,
             exits,

@@ -1,6 +1,7 @@
 """Rays through a phantom: checks, threads and the kernels."""
 
 from phantom.tracing.measure import Measure, measure
+from phantom.tracing.points import materials_at
 from phantom.tracing.pool import default_workers, warm
 from phantom.tracing.raster import raster
 from phantom.tracing.rays import Intervals, intervals, path_lengths
@@ -10,6 +11,7 @@ __all__ = [
     "Measure",
     "default_workers",
     "intervals",
+    "materials_at",
     "measure",
     "path_lengths",
     "raster",

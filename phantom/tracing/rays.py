@@ -47,6 +47,33 @@ class Intervals:
     leaf_names: tuple[str, ...]
 
 
+def _vectors(name: str, given: ArrayLike, problems: list[Problem]) -> Floats:
+    """Return an array ``(N, 3)``, or note what is wrong with it."""
+    try:
+        array = np.ascontiguousarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        problems.append(Problem(f"/{name}", "not_numbers", "found no array of numbers"))
+        return np.zeros((0, 3))
+    if array.ndim != 2 or array.shape[1] != 3:
+        message = f"found an array of shape {array.shape}; expected (N, 3)"
+        problems.append(Problem(f"/{name}", "wrong_shape", message))
+        return np.zeros((0, 3))
+    bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(bad):
+        message = "found a number that is not finite; expected finite numbers"
+        problems.append(Problem(f"/{name}/{bad[0]}", "not_finite", message))
+    return array
+
+
+def check_points(points: ArrayLike) -> Floats:
+    """Return points ``(P, 3)``, or raise :class:`InvalidInputError` with what is wrong."""
+    problems: list[Problem] = []
+    array = _vectors("points", points, problems)
+    if problems:
+        raise InvalidInputError(problems)
+    return array
+
+
 def check_rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Floats]:
     """Return origins and unit directions ``(N, 3)``, or say what is wrong with them.
 
@@ -57,22 +84,10 @@ def check_rays(origins: ArrayLike, directions: ArrayLike) -> tuple[Floats, Float
         has no length, or an origin lies too far out.
     """
     problems: list[Problem] = []
-    arrays = []
-    for name, given in (("origins", origins), ("directions", directions)):
-        try:
-            array = np.ascontiguousarray(given, dtype=np.float64)
-        except (TypeError, ValueError):
-            problems.append(Problem(f"/{name}", "not_numbers", "found no array of numbers"))
-            continue
-        arrays.append(array)
-        if array.ndim != 2 or array.shape[1] != 3:
-            message = f"found an array of shape {array.shape}; expected (N, 3)"
-            problems.append(Problem(f"/{name}", "wrong_shape", message))
-            continue
-        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
-        if len(bad):
-            message = "found a number that is not finite; expected finite numbers"
-            problems.append(Problem(f"/{name}/{bad[0]}", "not_finite", message))
+    arrays = [
+        _vectors(name, given, problems)
+        for name, given in (("origins", origins), ("directions", directions))
+    ]
     if problems:
         raise InvalidInputError(problems)
     start, along = arrays
