@@ -56,6 +56,11 @@ class Phantom:
         return self.compiled.bounds
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """What a person should know, such as a frame that jumps, each with its place."""
+        return self.compiled.warnings
+
+    @property
     def isocentre(self) -> Floats:
         """The point presets aim at: the landmark of that name, else the middle of the bounds."""
         named = self.document.landmarks.get("isocentre")

@@ -36,12 +36,15 @@ class Compiled:
         ``(L, 2, 3)`` mm, box of each leaf before operators; cuts of generalized cylinders ignored.
     bounds
         ``(2, 3)`` mm, a box that holds the final solid.
+    warnings
+        What a person should know about solids that are sound all the same.
     """
 
     scene: Scene
     labels: tuple[str, ...]
     leaf_bounds: Floats
     bounds: Floats
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass
@@ -115,6 +118,15 @@ class _Builder:
                 self._note(path, [refusal.problem])
         return self.quadrics[path]
 
+    def warnings(self) -> list[str]:
+        """Return the warnings of all cylinders, each with the path of its solid."""
+        return [
+            f"{path}: {warning}"
+            for (path, _), shape in self.cylinders.items()
+            if shape is not None
+            for warning in shape.warnings
+        ]
+
     def _note(self, path: str, problems: list[Problem]) -> None:
         for problem in prefixed(path, problems):
             self.problems[problem.path, problem.kind] = problem
@@ -139,7 +151,8 @@ def build(document: doc.Document) -> Compiled:
     boxes = np.array([_box(leaf) for leaf in leaves])
     tree = Tree(len(leaves))
     _, box = _flatten(nested, tree, boxes)
-    return Compiled(pack(leaves, boxes, tree), tuple(builder.labels), boxes, box)
+    scene = pack(leaves, boxes, tree)
+    return Compiled(scene, tuple(builder.labels), boxes, box, tuple(builder.warnings()))
 
 
 def _box(leaf: PlacedLeaf) -> Floats:

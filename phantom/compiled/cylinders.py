@@ -65,6 +65,7 @@ class Cylinder:
     parts: tuple[Part, ...]
     outline: Floats  # (P, 3) points of the surface
     planes: Halfspaces
+    warnings: tuple[str, ...]
 
     def moved(self, to: Similarity) -> Cylinder:
         """Return the cylinder moved by a similarity."""
@@ -72,6 +73,7 @@ class Cylinder:
             tuple(part.moved(to) for part in self.parts),
             to.points(self.outline),
             self.planes.moved(to),
+            self.warnings,
         )
 
     def boxes_corners(self) -> Floats:
@@ -109,7 +111,7 @@ def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | No
             outlines.append(outline)
             traced.append(Traced(shape, part.segments, part.tables))
         check_global_overlap(traced)
-        return Cylinder(tuple(parts), np.concatenate(outlines), cuts), []
+        return Cylinder(tuple(parts), np.concatenate(outlines), cuts, shapes[0].warnings), []
     except RefusalError as refusal:
         return None, [refusal.problem]
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from phantom import document as doc
 from phantom.geometry import tolerances
 from phantom.geometry.curves import Curve, sample_parameters
+from phantom.geometry.frenet import frenet
 from phantom.geometry.refusal import RefusalError
 
 Floats = NDArray[np.float64]
@@ -25,6 +26,8 @@ Ints = NDArray[np.intp]
 
 _CELL_TURN_RAD = 0.3
 _SERIES = 20
+_HALVINGS = 12
+_ANGLE_RAD = 1e-13
 
 
 class Frame(Protocol):
@@ -98,27 +101,54 @@ def _start(tangent: Floats) -> Floats:
 def rotation_minimizing(curve: Curve) -> RotationMinimizingFrame:
     """Build the rotation-minimizing frame that starts from world +x (or +y), document.md."""
     edges, owners = _cells(curve)
+    for _ in range(_HALVINGS):
+        rough = _rates(curve, edges, owners)[1]
+        if not rough.any():
+            break
+        middles = 0.5 * (edges[:-1] + edges[1:])[rough]
+        edges = np.sort(np.concatenate([edges, middles]))
+        owners = np.repeat(owners, 1 + rough)
+    rates, _ = _rates(curve, edges, owners)
+    return _integrated(curve, edges, owners, rates)
+
+
+def _rates(curve: Curve, edges: Floats, owners: Ints) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return the Chebyshev series of angle' on each cell, and which cells it does not yet fit."""
     nodes = np.cos(np.pi * (np.arange(_SERIES) + 0.5) / _SERIES)
     u = 0.5 * (edges[:-1, None] + edges[1:, None]) + 0.5 * np.diff(edges)[:, None] * nodes
     piece = np.repeat(owners, _SERIES)
-    starts = np.concatenate(
-        [tangents(curve, edges[:-1], owners), tangents(curve, edges[-1:], owners[-1:])]
-    )
     _, d1, d2 = curve.derivatives(u.ravel(), piece, 2)
     speed = np.linalg.norm(d1, axis=1)
     t = (d1 / speed[:, None]).reshape(-1, _SERIES, 3)
     bend = ((d2 - d1 * (_dots(d1, d2) / speed**2)[:, None]) / speed[:, None]).reshape(t.shape)
 
-    # Any vector across the cell's first tangent serves as its reference.
-    references = np.array([_start(tangent) for tangent in starts[:-1]])
+    references = _references(curve, edges, owners)
     _, r2, length = _projected(references[:, None, :], t)
     rate = _dots(references[:, None, :], t) * _dots(bend, r2) / length
     transform = np.linalg.inv(chebyshev.chebvander(nodes, _SERIES - 1))
+    series = rate @ transform.T
+    left = np.abs(series[:, -3:]).max(axis=1) * np.diff(edges)
+    return series, left > _ANGLE_RAD
+
+
+def _references(curve: Curve, edges: Floats, owners: Ints) -> Floats:
+    """Any vector across the cell's first tangent serves as its reference."""
+    return np.array([_start(tangent) for tangent in tangents(curve, edges[:-1], owners)])
+
+
+def _integrated(
+    curve: Curve, edges: Floats, owners: Ints, rates: Floats
+) -> RotationMinimizingFrame:
+    """Integrate the angle cell by cell, each starting where the one before ended."""
+    references = _references(curve, edges, owners)
+    starts = np.concatenate(
+        [tangents(curve, edges[:-1], owners), tangents(curve, edges[-1:], owners[-1:])]
+    )
     series = np.zeros((len(owners), _SERIES + 1))
     n = _start(starts[0])
-    for k, values in enumerate(rate):
+    for k, rate in enumerate(rates):
         half = 0.5 * (edges[k + 1] - edges[k])
-        integral = chebyshev.chebint(transform @ values, lbnd=-1) * half
+        integral = chebyshev.chebint(rate, lbnd=-1) * half
         r1, across, _ = _projected(references[k], starts[k])
         integral[0] += np.arctan2(n @ across, n @ r1)
         series[k] = integral
@@ -151,24 +181,23 @@ class UpFrame:
 
 
 @dataclass(frozen=True)
-class FrenetFrame:
-    """The paper's frame: n points to the centre of curvature (section II.A)."""
+class Framed:
+    """A frame over its axis, which it may have cut, and what a person should know about it."""
 
     curve: Curve
-
-    def normals(self, u: Floats, piece: Ints) -> Floats:
-        """Project the second derivative across the tangent."""
-        _, d1, d2 = self.curve.derivatives(u, piece, 2)
-        return _projected(d2, _unit(d1))[0]
+    frame: Frame
+    warnings: tuple[str, ...] = ()
 
 
-def frame(spec: doc.Frame, curve: Curve) -> Frame:
+def frame(spec: doc.Frame, curve: Curve) -> Framed:
     """Build the frame a document asks for, or refuse it below ``/frame``."""
     if isinstance(spec, doc.UpFrame):
-        return _up(spec, curve)
+        return Framed(curve, _up(spec, curve))
     if spec == "frenet":
-        return _frenet(curve)
-    return rotation_minimizing(curve)
+        found = frenet(curve)
+        if found is not None:
+            return Framed(*found)
+    return Framed(curve, rotation_minimizing(curve))
 
 
 def _up(spec: doc.UpFrame, curve: Curve) -> UpFrame:
@@ -184,26 +213,3 @@ def _up(spec: doc.UpFrame, curve: Curve) -> UpFrame:
             "expected a vector across the axis everywhere",
         )
     return UpFrame(curve, up)
-
-
-def _frenet(curve: Curve) -> FrenetFrame:
-    u, piece = sample_parameters(curve.breaks, 257)
-    _, d1, d2 = curve.derivatives(u, piece, 2)
-    speed = np.linalg.norm(d1, axis=1)
-    turned = np.cross(d1, d2) / speed[:, None] ** 3
-    curvature = np.linalg.norm(turned, axis=1)
-    length = float(np.sum(speed) / len(speed) * (curve.breaks[-1] - curve.breaks[0]))
-    # An inflection between two samples shows as a binormal that turns right over.
-    same_piece = piece[1:] == piece[:-1]
-    flips = np.flatnonzero((_dots(turned[1:], turned[:-1]) < 0) & same_piece)
-    jumps = np.flatnonzero((_dots(turned[1:], turned[:-1]) < 0) & ~same_piece)
-    lowest = int(np.argmin(curvature))
-    if len(flips) or len(jumps) or curvature[lowest] * length < tolerances.STRAIGHT:
-        place = u[flips[0]] if len(flips) else u[jumps[0]] if len(jumps) else u[lowest]
-        raise RefusalError(
-            "/frame",
-            "zero_curvature",
-            f"the axis has zero curvature near u = {place:.6g}, where the frenet frame is not "
-            "defined; expected a curved axis, or frame rotation_minimizing",
-        )
-    return FrenetFrame(curve)

@@ -62,6 +62,7 @@ class SweptShape:
     frame: Frame
     sweep: AnyLinear
     contour: Contour
+    warnings: tuple[str, ...] = ()
 
     @property
     def breaks(self) -> Floats:
@@ -107,6 +108,7 @@ class ChangingShape:
     frame: Frame
     changing: ChangingSections
     unit: float  # mm, the largest radius of all sections
+    warnings: tuple[str, ...] = ()
 
     @property
     def breaks(self) -> Floats:
@@ -204,17 +206,22 @@ def swept_shapes(leaf: doc.GeneralizedCylinder) -> tuple[list[Shape], list[Probl
 
     axis = tried(lambda: curve(leaf.axis))
     section = tried(lambda: _section(leaf))
-    around = None if axis is None else tried(lambda: frame(leaf.frame, axis))
-    if problems or axis is None or around is None or section is None:
+    framed = None
+    if axis is not None:
+        found: Curve = axis
+        framed = tried(lambda: frame(leaf.frame, found))
+    if problems or framed is None or section is None:
         return [], problems
+    axis, around, warnings = framed.curve, framed.frame, framed.warnings
     if isinstance(section, tuple):
         sweep, parts = section
-        if parts[0].outline is None:
-            around = _plain_frame(parts[0], sweep, axis, around)
-        return [SweptShape(axis, around, sweep, part) for part in parts], []
+        if _is_plain(parts[0], sweep) and not isinstance(around, RotationMinimizingFrame):
+            # A circle that stays a circle about the axis may be drawn in the smoothest frame.
+            around, warnings = rotation_minimizing(axis), ()
+        return [SweptShape(axis, around, sweep, part, warnings) for part in parts], []
     u = np.linspace(axis.breaks[0], axis.breaks[-1], 257)
     unit = 1.02 * float(section.radii(8.0 * np.arange(64) / 64, u).max())
-    return [ChangingShape(axis, around, section, unit)], []
+    return [ChangingShape(axis, around, section, unit, warnings)], []
 
 
 def _section(
@@ -231,12 +238,7 @@ def _section(
     return sweep, contours(leaf.contour)
 
 
-def _plain_frame(section: Contour, sweep: AnyLinear, axis: Curve, around: Frame) -> Frame:
-    """A circle that stays a circle about the axis may be drawn in the smoothest frame."""
-    if (
-        section.matrix[0, 0] == section.matrix[1, 1]
-        and sweep.is_round
-        and not isinstance(around, RotationMinimizingFrame)
-    ):
-        return rotation_minimizing(axis)
-    return around
+def _is_plain(section: Contour, sweep: AnyLinear) -> bool:
+    """Say whether turning the section about the axis changes nothing."""
+    circle = section.outline is None and section.matrix[0, 0] == section.matrix[1, 1]
+    return bool(circle and sweep.is_round)

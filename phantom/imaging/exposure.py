@@ -77,7 +77,7 @@ def radiograph(
 
 
 def _warnings(phantom: Phantom, view: View, beam: Beam) -> list[str]:
-    found = []
+    found = list(phantom.warnings)
     if "energy_kev" in beam.model_fields_set and not depends_on_energy(phantom.document.materials):
         found.append(
             f"the energy of {beam.energy_kev:g} keV has no effect: "
