@@ -17,7 +17,7 @@ from phantom.imaging import PRESETS
 
 
 def test_the_library_is_listed_by_name():
-    assert {"fan", "knee-1993", "sphere", "step-wedge"} <= set(library.names())
+    assert {"deformed", "fan", "knee-1993", "sphere", "step-wedge"} <= set(library.names())
     assert list(library.names()) == sorted(library.names())
 
 
