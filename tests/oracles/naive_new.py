@@ -199,8 +199,8 @@ class FormulaSection:
         self.inside, self.radius = inside(contour), radius(contour)
 
     def reach(self, u):
-        theta = np.linspace(0, 2 * np.pi, 500)[:, None]
-        x, y = (self.radius(theta) * f(theta) for f in (np.cos, np.sin))
+        theta = np.linspace(0, 2 * np.pi, 500)
+        x, y = ((self.radius(theta) * f(theta))[:, None] for f in (np.cos, np.sin))
         return 1.05 * np.hypot(*(f(x, y, u[::20]) for f in self.forward)).max()
 
     def __call__(self, plane, u):

@@ -1,0 +1,81 @@
+"""Formulas, matrices, morphs, corners and any outline against a naive twin."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import phantom
+from tests.oracles import families_new, rays
+from tests.oracles.comparison import compare
+from tests.oracles.naive_new import Twin, axis_of
+
+NIGHTLY_SOLIDS, NIGHTLY_RAYS = 2000, 200
+
+
+def document(leaf):
+    return {
+        "format": "phantom/1",
+        "name": "family",
+        "materials": {"m": {"attenuation_per_mm": 0.02}},
+        "solid": {"material": "m", **leaf},
+    }
+
+
+def figures(kinds, seed, count, samples=160):
+    """Compare on rays of which half pass near the axis, some along its sections."""
+    rng = np.random.default_rng(seed)
+    tree = document(families_new.generalized_cylinder(rng, kinds))
+    shape = phantom.load(tree)
+    center = shape.compiled.scene.leaf_center[0]
+    radius = float(shape.compiled.scene.leaf_radius[0])
+    origins, directions = rays.through_ball(rng, count, radius, center)
+    line = axis_of(tree["solid"]["axis"])
+    s = rng.random(count)
+    along = np.arange(count) % 4 == 3
+    directions[along] -= (directions * line.tangent(s)).sum(axis=1)[along, None] * line.tangent(s)[
+        along
+    ]
+    directions = rays.unit(directions)
+    near = np.arange(count) % 4 > 0
+    places = line(s) + rng.normal(0, 5, (count, 3))
+    origins[near] = places[near] - 3 * radius * directions[near]
+    twin = Twin(tree, 200)
+    return compare(shape, twin, origins, directions, (1.0 * radius, 5.2 * radius), radius, samples)
+
+
+def covering():
+    """Few combinations in which every new kind comes with every other new kind and frame."""
+    product = itertools.product(
+        (*families_new.NEW_AXES, "spline", "closed arc"),
+        families_new.CONTOURS,
+        (*families_new.NEW_SWEEPS, "all"),
+        families_new.FRAMES,
+    )
+    new = {*families_new.NEW_AXES, *families_new.NEW_CONTOURS, *families_new.NEW_SWEEPS}
+    new |= {*families_new.FRAMES}
+    everything = [kinds for kinds in product if families_new.allowed(kinds)]
+    order = [everything[i] for i in np.random.default_rng(71).permutation(len(everything))]
+    seen, chosen = set(), []
+    for least in (5, 4, 3, 2):
+        for kinds in order:
+            pairs = {p for p in itertools.combinations(kinds, 2) if set(p) <= new}
+            if len(pairs - seen) >= least:
+                seen |= pairs
+                chosen.append(kinds)
+    return chosen
+
+
+@pytest.mark.parametrize("kinds", covering(), ids=lambda kinds: "-".join(kinds).replace(" ", "_"))
+def test_kinds_with_kinds(kinds):
+    found = figures(kinds, 72, 20)
+    assert found.hits > 0
+    assert found.right(), found
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("seed", range(10_000, 10_000 + NIGHTLY_SOLIDS))
+def test_random_solids(seed):
+    kinds = families_new.any_kinds(np.random.default_rng(seed))
+    found = figures(kinds, seed, NIGHTLY_RAYS, 120)
+    assert found.right(), (kinds, found)
