@@ -41,6 +41,8 @@ def _print(summary: DocumentSummary) -> None:
     (x0, y0, z0), (x1, y1, z1) = summary.bounds_mm
     answer(f"bounds  x {x0:.3f} to {x1:.3f}, y {y0:.3f} to {y1:.3f}, z {z0:.3f} to {z1:.3f} mm")
     answer(f"volume  {summary.volume_mm3:.6g} mm³ (± {summary.volume_relative_error:.1g} of it)")
+    for warning in summary.warnings:
+        answer(f"warning {warning}")
     if summary.mass_g is not None:
         answer(f"mass    {summary.mass_g:.6g} g")
     for material in summary.materials:

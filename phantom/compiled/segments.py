@@ -119,17 +119,16 @@ def segments(shape: Shape, tolerance_mm: float) -> Segments:
 
 
 def check_local_overlap(shape: Shape) -> None:
-    """Refuse a section that reaches the centre of curvature: 1 - kappa n.s <= 0 somewhere."""
+    """Refuse a section that reaches the centre of curvature: 1 - kappa n.s <= 0 somewhere.
+
+    The extent counts only toward that centre. The worst of the samples is looked at closer.
+    """
     breaks = shape.breaks
     pieces = shape.pieces(breaks)
     fractions = np.linspace(0, 1, 65)
     u = breaks[:-1, None] + fractions * np.diff(breaks)[:, None]
     u[:, -1] = breaks[1:]
-    at = shape.sections(u.ravel(), np.repeat(pieces, 65))
-    speed2 = np.einsum("ni,ni->n", at.first, at.first)
-    along = np.einsum("ni,ni->n", at.first, at.second) / speed2
-    curvature = (at.second - along[:, None] * at.first) / speed2[:, None]
-    thin = np.linalg.svd(at.spread, compute_uv=False)[:, 1]
+    reach, radius, thin = _reach(shape, u.ravel(), np.repeat(pieces, 65))
     if thin.min() < tolerances.SMALLEST_SECTION_MM:
         raise RefusalError(
             "/sweep",
@@ -137,20 +136,37 @@ def check_local_overlap(shape: Shape) -> None:
             f"the section at u = {u.ravel()[int(np.argmin(thin))]:.6g} is {thin.min():.3g} mm "
             f"thin; expected at least {tolerances.SMALLEST_SECTION_MM:g} mm",
         )
-    hull = shape.hull(u.ravel(), _HULL_POINTS)
-    reach = np.einsum("ni,ni->n", at.middle - at.axis, curvature) + _support(
-        hull, np.einsum("nij,ni->nj", at.spread, curvature)
-    )
-    worst = int(np.argmax(reach))
+    row, column = divmod(int(np.argmax(reach)), 65)
+    low, high = u[row, max(column - 1, 0)], u[row, min(column + 1, 64)]
+    for _ in range(4):
+        near = np.linspace(low, high, 17)
+        reach, radius, _ = _reach(shape, near, np.repeat(pieces[row], 17))
+        worst = int(np.argmax(reach))
+        low, high = near[max(worst - 1, 0)], near[min(worst + 1, 16)]
     if reach[worst] >= 1:
-        k = float(np.linalg.norm(curvature[worst]))
         raise RefusalError(
             "",
             "local_overlap",
-            f"the solid folds into itself at u = {u.ravel()[worst]:.6g}: the section reaches "
-            f"{reach[worst] / k:.4g} mm toward the centre of curvature, which is {1 / k:.4g} mm "
-            f"away (curvature x extent = {reach[worst]:.4g}); expected less than 1",
+            f"the solid folds into itself at u = {near[worst]:.6g}: the section reaches "
+            f"{reach[worst] * radius[worst]:.4g} mm toward the centre of curvature, which is "
+            f"{radius[worst]:.4g} mm away (curvature x extent = {reach[worst]:.4g}); "
+            "expected less than 1",
         )
+
+
+def _reach(shape: Shape, u: Floats, piece: Ints) -> tuple[Floats, Floats, Floats]:
+    """Return curvature times extent toward its centre, the radius of curvature, the thinness."""
+    at = shape.sections(u, piece)
+    speed2 = np.einsum("ni,ni->n", at.first, at.first)
+    along = np.einsum("ni,ni->n", at.first, at.second) / speed2
+    curvature = (at.second - along[:, None] * at.first) / speed2[:, None]
+    hull = shape.hull(u, _HULL_POINTS)
+    reach = np.einsum("ni,ni->n", at.middle - at.axis, curvature) + _support(
+        Hull(hull.points, 0.0), np.einsum("nij,ni->nj", at.spread, curvature)
+    )
+    radius = 1 / np.maximum(np.linalg.norm(curvature, axis=1), 1e-300)
+    thin = np.linalg.svd(at.spread, compute_uv=False)[:, 1]
+    return np.asarray(reach), np.asarray(radius), np.asarray(thin)
 
 
 def _support(hull: Hull, directions: Floats) -> Floats:

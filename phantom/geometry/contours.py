@@ -20,6 +20,7 @@ from phantom.geometry.outlines import (
     ScaledOutline,
     SplineOutline,
     SuperellipseOutline,
+    finer,
 )
 from phantom.geometry.partition import star_parts
 from phantom.geometry.refusal import RefusalError
@@ -28,6 +29,7 @@ Floats = NDArray[np.float64]
 
 _STAR_MARGIN = 1e-3
 _GOOD_MARGIN = 0.05
+_PART_MARGIN = 0.05
 
 
 @dataclass(frozen=True)
@@ -204,11 +206,11 @@ def _rounded(points: Floats, radius: float) -> Outline:
 
 def _stars(outline: Outline) -> tuple[Contour, ...]:
     """Return the outline as one star-shaped contour, or as the fewest parts a few tries give."""
-    one = star(outline)
+    one = star(outline, None, _PART_MARGIN)
     if one is not None:
         return (one,)
     check_simple(outline)
-    parts = star_parts(outline, lambda part: star(part) is not None)
+    parts = star_parts(outline, lambda part: star(part, None, _PART_MARGIN) is not None)
     if parts is None:
         raise RefusalError(
             "/contour",
@@ -219,10 +221,13 @@ def _stars(outline: Outline) -> tuple[Contour, ...]:
     return tuple(part for part in found if part is not None)
 
 
-def star(outline: Outline, center: Floats | None = None) -> Contour | None:
+def star(
+    outline: Outline, center: Floats | None = None, least_margin: float = _STAR_MARGIN
+) -> Contour | None:
     """Place an outline about a point that sees it whole, scaled to reach 1; None if there is none.
 
-    With ``center`` given, only that point is tried.
+    With ``center`` given, only that point is tried. The margin is how far inside all tangents the
+    point must lie, as a share of the outline's size.
     """
     samples = outline_samples(outline, 1024)
     points, first = samples[0], samples[1]
@@ -242,10 +247,11 @@ def star(outline: Outline, center: Floats | None = None) -> Contour | None:
         margin = _margin(center, edge_points, edges)
     winding = np.unwrap(np.arctan2(*(points - center).T[::-1]), period=2 * np.pi)
     turns = abs(winding[-1] - winding[0]) / (2 * np.pi)
-    if margin < _STAR_MARGIN * size or turns > 1.5:
+    if margin < least_margin * size or turns > 1.5:
         return None
     scale = float(np.linalg.norm(points - center, axis=1).max())
-    return Contour(np.eye(2) * scale, center, PlacedOutline(outline, center, scale, reverse))
+    placed = PlacedOutline(outline, center, scale, reverse)
+    return Contour(np.eye(2) * scale, center, finer(placed))
 
 
 def _cross(a: Floats, b: Floats) -> Floats:

@@ -196,6 +196,41 @@ class EdgesOutline:
 
 
 @dataclass(frozen=True)
+class FinerOutline:
+    """An outline cut at further places; a piece is a stretch of one of the inner pieces."""
+
+    inner: Outline
+    breaks: Floats
+    owners: Ints
+
+    def derivatives(self, v: Floats, piece: Ints) -> Floats:
+        """Evaluate the inner outline's own piece."""
+        return self.inner.derivatives(v, self.owners[piece])
+
+
+def finer(outline: Outline, most_rad: float = 1.0) -> Outline:
+    """Cut pieces that turn far about the origin, so that none is seen under half a turn."""
+    breaks = outline.breaks
+    count, each = len(breaks) - 1, 65
+    v = breaks[:-1, None] + np.linspace(0, 1, each) * np.diff(breaks)[:, None]
+    points = outline.derivatives(v.ravel(), np.repeat(np.arange(count), each))[0]
+    angle = np.unwrap(np.arctan2(points[:, 1], points[:, 0]).reshape(count, each), axis=1)
+    found, owners = [], []
+    for k in range(count):
+        parts = int(np.ceil(abs(angle[k, -1] - angle[k, 0]) / most_rad)) or 1
+        turned = np.abs(angle[k] - angle[k, 0])
+        marks = np.searchsorted(turned, turned[-1] * np.arange(parts) / parts)
+        starts = np.unique(v[k, np.minimum(marks, each - 2)])
+        found.append(starts)
+        owners += [k] * len(starts)
+    if len(owners) == count:
+        return outline
+    return FinerOutline(
+        outline, np.append(np.concatenate(found), breaks[-1]), np.array(owners, dtype=np.intp)
+    )
+
+
+@dataclass(frozen=True)
 class PlacedOutline:
     """An outline given in the contour plane, moved to unit coordinates about a centre."""
 

@@ -52,6 +52,9 @@ class DocumentSummary(Model):
     mass_g: Annotated[
         float | None, told("Mass", "g", "Null where something present has no known density.")
     ]
+    warnings: Annotated[
+        tuple[str, ...], told("Warnings", "none", "What to know about solids that are sound.")
+    ]
 
 
 def density_g_cm3(material: Material) -> float | None:
@@ -84,6 +87,7 @@ def summarise(phantom: Phantom, cancelled: Callable[[], bool] | None = None) -> 
         volume_relative_error=float(measured.relative_error),
         materials=materials,
         mass_g=sum(masses) if len(masses) == len(present) else None,
+        warnings=phantom.warnings,
     )
 
 
