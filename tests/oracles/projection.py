@@ -7,7 +7,7 @@ from tests.oracles.rays import unit
 
 
 def volume(shape, direction, rng, count=400_000):
-    """Sum of L dA over a lattice of parallel rays, turned and shifted at random.
+    """Sum of L dA over a square lattice of parallel rays, turned and shifted at random.
 
     Path lengths start like a square root at silhouettes, so a lattice is off by some spacing^1.5
     times the root of the outline's length.
@@ -19,12 +19,8 @@ def volume(shape, direction, rng, count=400_000):
     corners = np.array([(i, j, k) for i in x for j in y for k in z])
     p, q, depth = corners @ a, corners @ b, (corners @ d).min() - 10.0
     spacing = np.sqrt(np.ptp(p) * np.ptp(q) / count)
-    low = np.array([p.min(), q.min()]) - spacing * rng.random(2)
-    p, q = (
-        np.arange(start, last + spacing, spacing)
-        for start, last in zip(low, (p.max(), q.max()), strict=True)
-    )
+    p, q = (np.arange(m.min() - spacing * rng.random(), m.max() + spacing, spacing) for m in (p, q))
     p, q = (m.ravel() for m in np.meshgrid(p, q))
     origins = np.outer(p, a) + np.outer(q, b) + depth * d
-    lengths = phantom.path_lengths(shape, origins, np.tile(d, (len(origins), 1)))
+    lengths = phantom.path_lengths(shape, origins, np.broadcast_to(d, origins.shape))
     return lengths.sum() * spacing**2
