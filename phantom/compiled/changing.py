@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +24,7 @@ Floats = NDArray[np.float64]
 _T_DEGREE = 5
 _CHECKS_T = np.array([-0.93, -0.7, -0.35, 0.1, 0.5, 0.8, 0.96])
 _CHECKS_TAU = np.array([-0.97, -0.75, -0.4, 0.05, 0.45, 0.8, 0.98])
-MAX_CELLS = 20000
+MAX_CELLS = 200000
 
 
 @dataclass(frozen=True)
@@ -45,12 +44,9 @@ def changing_tables(shape: ChangingShape, knots: Floats, tolerance: float) -> li
     RefusalError
         At ``/sweep``, where more than :data:`MAX_CELLS` cells would be needed.
     """
-    return [_table(shape, start, end, tolerance) for start, end in itertools.pairwise(knots)]
-
-
-def _table(shape: ChangingShape, start: float, end: float, tolerance: float) -> ChangingTable:
     marks = shape.changing.marks
     low, high = marks[:-1], marks[1:]
+    start, end = knots[:-1, None], knots[1:, None]
     middle, half = 0.5 * (start + end), 0.5 * (end - start)
     nodes = np.clip(middle + half * lobatto_nodes(), start, end)
     checks = middle + half * _CHECKS_TAU
@@ -63,15 +59,16 @@ def _table(shape: ChangingShape, start: float, end: float, tolerance: float) -> 
         at = (0.5 * (low + high))[:, None] + width[:, None] * lobatto_nodes(_T_DEGREE)
         values = _gauge(shape, at, nodes)
         cells = np.einsum(
-            "pt,ctn,qn->cpq", interpolation_matrix(_T_DEGREE), values, interpolation_matrix()
+            "pt,ctkn,qn->ckpq", interpolation_matrix(_T_DEGREE), values, interpolation_matrix()
         )
         at = (0.5 * (low + high))[:, None] + width[:, None] * _CHECKS_T
         truth = _gauge(shape, at, checks)
-        found = np.einsum("tp,cpq,nq->ctn", powers, cells, tau_powers)
+        found = np.einsum("tp,ckpq,nq->ctkn", powers, cells, tau_powers)
         t = at - 2.0 * np.minimum(at // 2, 3) - 1.0
-        radius = np.sqrt((1 + t[..., None] ** 2) / truth)
-        error = (0.5 * radius * np.abs(found - truth) / truth).max(axis=(1, 2))
-        good = error <= tolerance
+        radius = np.sqrt((1 + t[..., None, None] ** 2) / truth)
+        error = (0.5 * radius * np.abs(found - truth) / truth).max(axis=(1, 3))
+        # All segments share their cells: what one of them needs, all get.
+        good = (error <= tolerance).all(axis=1)
         done.append((low[good], cells[good]))
         total += int(good.sum())
         if good.all():
@@ -79,20 +76,31 @@ def _table(shape: ChangingShape, start: float, end: float, tolerance: float) -> 
         low, high = low[~good], high[~good]
         middles = 0.5 * (low + high)
         low, high = np.concatenate([low, middles]), np.concatenate([middles, high])
-        if total + len(low) > MAX_CELLS:
+        if (total + len(low)) * len(nodes) > MAX_CELLS:
+            worst = int(np.argmax(error.max(axis=0)))
             raise RefusalError(
                 "/sweep",
                 "contour_detail",
-                f"the section changes too sharply at u = {start:.6g} to {end:.6g}: {MAX_CELLS} "
-                f"cells leave {float(error.max()):.3g} of its radius; expected {tolerance:.3g}",
+                f"the section changes too sharply at u = {knots[worst]:.6g} to "
+                f"{knots[worst + 1]:.6g}: {MAX_CELLS} cells leave {float(error.max()):.3g} of its "
+                f"radius; expected {tolerance:.3g}",
             )
     starts = np.concatenate([d[0] for d in done])
     order = np.argsort(starts)
+    edges = np.append(starts[order], 8.0)
     cells = np.concatenate([d[1] for d in done])[order]
+    return [
+        ChangingTable(edges, np.ascontiguousarray(cells[:, k]), _kinks(shape, *knots[k : k + 2]))
+        for k in range(len(nodes))
+    ]
+
+
+def _kinks(shape: ChangingShape, start: float, end: float) -> Floats:
+    """Largest jumps of h's slope at the corners over a segment, ``(k, 3)``."""
     corners, jumps = shape.changing.corners(np.linspace(start, end, 9))
     jumps = jumps * shape.unit**2
     # Smooth between the samples; a tenth more covers what they may miss.
-    kinks = np.stack(
+    return np.stack(
         [
             corners,
             1.1 * np.maximum(jumps.max(axis=1, initial=0.0), 0.0),
@@ -100,15 +108,14 @@ def _table(shape: ChangingShape, start: float, end: float, tolerance: float) -> 
         ],
         axis=-1,
     )
-    return ChangingTable(np.append(starts[order], 8.0), cells, kinks)
 
 
 def _gauge(shape: ChangingShape, T: Floats, u: Floats) -> Floats:
-    """Return g at ``(cells, points)`` pseudo-angles and n parameters: ``(cells, points, n)``."""
+    """Return g at ``(cells, points)`` pseudo-angles and (K, n) parameters, in that order."""
     inside = np.clip(T, np.min(T, axis=1, keepdims=True), np.nextafter(T[:, -1:], T[:, :1]))
     t = inside - 2.0 * np.minimum(inside // 2, 3) - 1.0
-    radius = shape.changing.radii(inside.ravel(), u) / shape.unit
-    return np.asarray((1 + t[..., None] ** 2) / radius.reshape(*T.shape, len(u)) ** 2)
+    radius = shape.changing.radii(inside.ravel(), u.ravel()) / shape.unit
+    return np.asarray((1 + t[..., None, None] ** 2) / radius.reshape(*T.shape, *u.shape) ** 2)
 
 
 class ChangingSection:

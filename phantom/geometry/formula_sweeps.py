@@ -108,7 +108,8 @@ class FormulaSections:
             low, f_low = np.where(under, v, low), np.where(under, f, f_low)
             high, f_high = np.where(under, high, v), np.where(under, f_high, f)
             size = np.linalg.norm(point, axis=-1)
-            if np.all(np.abs(f) <= 4e-15 * size * np.linalg.norm(rays, axis=-1)):
+            # The radius is off by the square of this, and by its rounding.
+            if np.all(np.abs(f) <= 1e-12 * size * np.linalg.norm(rays, axis=-1)):
                 break
         return np.asarray(np.linalg.norm(point, axis=-1).T)
 

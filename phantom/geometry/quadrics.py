@@ -48,6 +48,16 @@ class QuadricShape:
         y = points - self.center
         return np.asarray(np.einsum("ni,ij,nj->n", y, a, y) + 2 * y @ b + c)
 
+    def inside(self, points: Floats, slack: Floats) -> NDArray[np.bool_]:
+        """Tell which points the form holds, or some point within ``slack`` (n,) of them."""
+        if self.form is None:
+            return np.ones(len(points), dtype=np.bool_)
+        a, b, _ = self.form
+        slope = 2 * np.linalg.norm((points - self.center) @ a + b, axis=1)
+        # No farther than the slack away the form is less by this, bar its own rounding.
+        least = (slope + np.abs(a).max() * slack) * slack
+        return np.asarray(self.values(points) <= least)
+
 
 def quadric(leaf: QuadricLeaf) -> QuadricShape:
     """Read a quadric leaf with its cuts.
@@ -141,7 +151,7 @@ def _general(leaf: doc.Quadric) -> QuadricShape:
     center = -np.linalg.pinv(matrix, rcond=1e-12) @ linear
     constant = float(center @ matrix @ center + 2 * linear @ center + j)
     linear = matrix @ center + linear
-    scale = max(abs(constant), float(np.abs(matrix).max()) * 1e-12, 1e-300)
+    scale = max(abs(constant), float(np.abs(matrix).max()), float(np.abs(linear).max()))
     return QuadricShape(
         center, (matrix / scale, linear / scale, constant / scale), Halfspaces.everything()
     )
@@ -207,9 +217,9 @@ def bounds(shape: QuadricShape) -> Floats:
     points = np.array(found).reshape(-1, 3)
     # Planes that are nearly parallel meet far away; what is kept is judged by its own size.
     sizes = np.maximum(1.0, np.abs(points - shape.center).max(axis=1, initial=0.0))
-    slack = 1e-9 * sizes[:, None]
-    inside = np.all(points @ planes.normals.T <= planes.offsets + slack, axis=1)
-    inside &= shape.values(points) <= 1e-7
+    slack = 1e-9 * sizes
+    inside = np.all(points @ planes.normals.T <= planes.offsets + slack[:, None], axis=1)
+    inside &= shape.inside(points, slack)
     points, size = points[inside], float(sizes[inside].max(initial=1.0))
     box = np.stack([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
     if np.any(box[1] - box[0] <= 1e-9 * size):
