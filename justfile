@@ -23,6 +23,10 @@ test:
 nightly:
     uv run pytest -m nightly
 
+# Against other programs, which the group installs.
+compare:
+    uv run --group compare pytest -m compare
+
 # Redraw every picture of the README and the docs.
 figures:
     uv run python docs/make_figures.py
