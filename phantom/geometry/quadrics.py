@@ -150,7 +150,9 @@ def _general(leaf: doc.Quadric) -> QuadricShape:
     # About its own centre, where it has one, the numbers are small and rounding is too.
     center = -np.linalg.pinv(matrix, rcond=1e-12) @ linear
     constant = float(center @ matrix @ center + 2 * linear @ center + j)
+    rounding = 1e-13 * (np.abs(linear).max() + np.abs(matrix).max() * np.abs(center).max())
     linear = matrix @ center + linear
+    linear[np.abs(linear) <= rounding] = 0.0  # a cylinder is not a very long paraboloid
     scale = max(abs(constant), float(np.abs(matrix).max()), float(np.abs(linear).max()))
     return QuadricShape(
         center, (matrix / scale, linear / scale, constant / scale), Halfspaces.everything()
@@ -181,7 +183,7 @@ def _check_bounded(shape: QuadricShape) -> None:
                 continue
             bend = float(d @ a @ d) / size
             flat = abs(bend) <= 1e-12 and np.linalg.norm(a @ d) <= 1e-9 * size
-            if bend > 1e-12 or (flat and b @ d > 0):
+            if bend > 1e-12 or (flat and b @ d > 1e-9 * np.linalg.norm(b)):
                 continue
             raise RefusalError(
                 "",
@@ -241,7 +243,7 @@ def _extremes(shape: QuadricShape, rows: Floats, offsets: Floats) -> list[Floats
     inner = basis.T @ a @ basis
     slope = basis.T @ (a @ (base - shape.center) + b)
     level = float(shape.values(base[None])[0])
-    inverse: Floats = np.asarray(np.linalg.pinv(inner, rcond=1e-12), dtype=np.float64)
+    inverse = _pseudo_inverse(inner, float(np.abs(a).max()))
     middle = -inverse @ slope
     at_middle = level + slope @ middle
     points = [base + basis @ middle]
@@ -257,6 +259,13 @@ def _extremes(shape: QuadricShape, rows: Floats, offsets: Floats) -> list[Floats
         reach = np.sqrt(-at_middle / bend)
         points += [base + basis @ (middle + s * reach * direction) for s in (-1.0, 1.0)]
     return points
+
+
+def _pseudo_inverse(matrix: Floats, size: float) -> Floats:
+    """Invert a symmetric matrix where it is not 0 to rounding, beside entries of ``size``."""
+    values, vectors = np.linalg.eigh(matrix)
+    kept = np.abs(values) > 1e-12 * size
+    return np.asarray((vectors[:, kept] / values[kept]) @ vectors[:, kept].T)
 
 
 def _vertices(

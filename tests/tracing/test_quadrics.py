@@ -5,6 +5,7 @@ import pytest
 
 import phantom
 from tests.oracles import quadrics, rays
+from tests.oracles.naive import quadric_membership
 
 SURFACE_MM = 1e-11
 
@@ -202,3 +203,64 @@ def test_cuts_move_with_their_leaf(solid, leaf, matrix):
     for i in range(len(origins)):
         wanted = np.diff(truth.chords(origins[i], directions[i]), axis=1).sum() * scale
         assert abs(lengths[i] - wanted) * min(1, max(wanted, 1e-4) / 240) <= 2 * SURFACE_MM
+
+
+def random_quadric(rng):
+    """Small whole numbers, so that cones, cylinders and pairs of planes come up; and some cuts."""
+    coefficients = rng.integers(-2, 3, 10) * rng.integers(0, 2, 10)
+    coefficients[9] *= 50
+    coefficients[6:9] *= rng.integers(1, 8)
+    if not coefficients[:9].any():
+        coefficients[0] = 1
+    shift = rng.choice([0.0, 310.0]) * rng.uniform(-1, 1, 3)
+    moved = np.array(coefficients, dtype=float)
+    a, b, c, d, e, f = moved[:6]
+    matrix = np.array([[a, d / 2, f / 2], [d / 2, b, e / 2], [f / 2, e / 2, c]])
+    moved[9] += shift @ matrix @ shift - moved[6:9] @ shift
+    moved[6:9] -= 2 * matrix @ shift
+    cuts = []
+    while len(cuts) < rng.integers(0, 9):
+        normal = rng.integers(-2, 3, 3).astype(float)
+        if normal.any():
+            point = shift + normal * rng.uniform(2, 12)
+            cuts.append({"point": point.tolist(), "normal": normal.tolist()})
+    return {"type": "quadric", "coefficients": moved.tolist(), "cuts": cuts}, shift
+
+
+def test_bounds_hold_every_quadric_and_endless_ones_are_refused(solid):
+    rng = np.random.default_rng(17)
+    near = rng.uniform(-40, 40, (3000, 3))
+    far = 4e3 * rays.unit(rng.standard_normal((20_000, 3)))
+    accepted = 0
+    for _ in range(400):
+        leaf, shift = random_quadric(rng)
+        inside = quadric_membership(leaf)
+
+        def left(points, inside=inside, leaf=leaf, shift=shift):
+            kept = inside(points + shift)
+            for cut in leaf["cuts"]:
+                kept &= (points + shift - cut["point"]) @ np.array(cut["normal"]) <= 0
+            return points[kept] + shift
+
+        try:
+            shape = solid(**leaf)
+        except phantom.InvalidDocumentError as refused:
+            (problem,) = refused.problems
+            if problem.kind == "empty":
+                assert len(left(near)) == 0, leaf
+            continue
+        accepted += 1
+        low, high = shape.bounds
+        found = left(near)
+        assert np.all((found >= low - 1e-6) & (found <= high + 1e-6)), leaf
+        if np.abs(shape.bounds - shift).max() < 3e3:
+            assert len(left(far)) == 0, leaf
+        origins, directions = rays.through_ball(rng, 60, 30.0, shift)
+        lengths = phantom.path_lengths(shape, origins, directions)[:, 0]
+        truth = quadrics.of(leaf)
+        wanted = [
+            np.diff(truth.chords(o, d), axis=1).sum()
+            for o, d in zip(origins, directions, strict=True)
+        ]
+        np.testing.assert_allclose(lengths, np.array(wanted, float), atol=1e-6, err_msg=str(leaf))
+    assert accepted > 30
