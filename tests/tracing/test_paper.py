@@ -167,7 +167,8 @@ def test_random_rays_through_a_bone_lose_next_to_nothing():
 def table(count=100):
     """Print the table of docs/methods/paper_twin.md: ``python -m tests.tracing.test_paper``."""
     print(
-        "| solid | rays | traced | whole | roots | lost | of short chords | invented | moved | worst mm |"
+        "| solid | rays | traced | whole | roots "
+        "| lost | of short chords | invented | moved | worst mm |"
     )
     print("|---|---|---|---|---|---|---|---|---|---|")
     for name, leaf in SOLIDS.items():

@@ -124,7 +124,7 @@ REFUSED = {
     ),
     "a body through a body": (
         {
-            "axis": formula_axis("60*sin(u)", "60*sin(u)*cos(u)", "3*u", [0.2, 6.0], closed=False),
+            "axis": formula_axis("60*sin(u)", "60*sin(u)*cos(u)", "3*u", [-1, 4]),
             "contour": CIRCLE,
         },
         "/solid",
@@ -177,3 +177,9 @@ def test_a_ring_that_nearly_closes_is_a_solid(solid, gap_mm):
         axis={**RING, "angle_deg": angle},
         contour=CIRCLE,
     )
+
+
+def test_a_body_that_passes_itself_is_a_solid(solid):
+    """The figure of eight, steep enough that its strands pass 2 mm apart."""
+    axis = formula_axis("60*sin(u)", "60*sin(u)*cos(u)", "7*u", [-1, 4])
+    solid(type="generalized_cylinder", axis=axis, contour=CIRCLE)
