@@ -11,7 +11,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PPoly
 
 from phantom import document as doc
 from phantom.geometry.contours import Contour, check_simple, plane_outline, star
@@ -48,6 +48,7 @@ class Morph:
 
     places: Floats  # (c,)
     contours: tuple[Contour, ...]
+    cardinal: PPoly  # the splines through 1 at one place and 0 at the others
 
     @property
     def breaks(self) -> Floats:
@@ -92,10 +93,8 @@ class Morph:
         return T, np.asarray(-2 * turn / self.radii(T, u) ** 3)
 
     def _weights(self, u: Floats) -> Floats:
-        """Return how much of each contour there is at u, ``(n, c)``: the cardinal splines."""
-        return np.asarray(
-            CubicSpline(self.places, np.eye(len(self.places)), bc_type="not-a-knot")(u)
-        )
+        """Return how much of each contour there is at u, ``(n, c)``."""
+        return np.asarray(self.cardinal(u))
 
 
 def _radii(contour: Contour, T: Floats) -> Floats:
@@ -131,7 +130,9 @@ def morph(sweep: doc.MorphSweep) -> Morph:
                 "the origin does not see the whole contour; expected it to, in a morph",
             )
         found.append(placed)
-    result = Morph(np.array([s.at for s in sweep.contours], dtype=np.float64), tuple(found))
+    places = np.array([s.at for s in sweep.contours], dtype=np.float64)
+    cardinal = CubicSpline(places, np.eye(len(places)), bc_type="not-a-knot")
+    result = Morph(places, tuple(found), cardinal)
     _check_positive(result)
     return result
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from phantom import document as doc
 from phantom.geometry import tolerances
-from phantom.geometry.curves import Curve, sample_parameters
+from phantom.geometry.curves import Curve, lowest, sample_parameters
 from phantom.geometry.frenet import frenet
 from phantom.geometry.refusal import RefusalError
 
@@ -202,14 +202,16 @@ def frame(spec: doc.Frame, curve: Curve) -> Framed:
 
 def _up(spec: doc.UpFrame, curve: Curve) -> UpFrame:
     up = _unit(np.array(spec.up, dtype=np.float64))
-    u, piece = sample_parameters(curve.breaks, 257)
-    sine = np.linalg.norm(np.cross(tangents(curve, u, piece), up), axis=1)
-    worst = int(np.argmin(sine))
-    if sine[worst] < tolerances.UP_PARALLEL:
+
+    def sine(u: Floats, piece: Ints) -> Floats:
+        return np.asarray(np.linalg.norm(np.cross(tangents(curve, u, piece), up), axis=1))
+
+    place, least = lowest(sine, curve.breaks, 257)
+    if least < tolerances.UP_PARALLEL:
         raise RefusalError(
             "/frame/up",
             "up_parallel",
-            f"up is parallel to the axis at u = {u[worst]:.6g} (sine {sine[worst]:.3g}); "
+            f"up is parallel to the axis at u = {place:.6g} (sine {least:.3g}); "
             "expected a vector across the axis everywhere",
         )
     return UpFrame(curve, up)
