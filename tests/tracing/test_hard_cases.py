@@ -232,7 +232,12 @@ def coils(pitch):
     }
 
 
-@pytest.mark.parametrize("gap", [1e-3, 1e-5, -5e-7])
+SLOW = pytest.mark.nightly
+
+
+@pytest.mark.parametrize(
+    "gap", [1e-3, pytest.param(1e-5, marks=SLOW), pytest.param(-5e-7, marks=SLOW)]
+)
 def test_coils_that_nearly_touch(tube, gap):
     tube(**coils(pitch_for(gap)))
 
