@@ -1,5 +1,7 @@
 """A generalized cylinder on a circular axis is a torus, whose quartic is known."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -98,7 +100,7 @@ def test_an_open_arc_is_the_torus_between_its_end_planes(solid, angle_deg):
         for entry, exit_ in exact:
             cuts = [w for w in marks if entry < w < exit_]
             edges = np.sort([entry, *cuts, exit_])
-            for a, b in zip(edges, edges[1:], strict=False):
+            for a, b in itertools.pairwise(edges):
                 x = origins[i] + 0.5 * (a + b) * directions[i]
                 turn = np.degrees(np.arctan2(x[1], x[0])) % 360.0
                 kept = turn <= angle_deg if angle_deg > 0 else turn >= 360 + angle_deg
