@@ -52,10 +52,13 @@ class QuadricShape:
         """Tell which points the form holds, or some point within ``slack`` (n,) of them."""
         if self.form is None:
             return np.ones(len(points), dtype=np.bool_)
-        a, b, _ = self.form
-        slope = 2 * np.linalg.norm((points - self.center) @ a + b, axis=1)
-        # No farther than the slack away the form is less by this, bar its own rounding.
-        least = (slope + np.abs(a).max() * slack) * slack
+        a, b, c = self.form
+        y = points - self.center
+        slope = 2 * np.linalg.norm(y @ a + b, axis=1)
+        # No farther than the slack away the form is less by this; at a tip it is rounding.
+        size, far = np.abs(a).max(), np.linalg.norm(y, axis=1)
+        rounding = 1e-14 * ((3 * size * far + 2 * np.linalg.norm(b)) * far + abs(c))
+        least = (slope + size * slack) * slack + rounding
         return np.asarray(self.values(points) <= least)
 
 

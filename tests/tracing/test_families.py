@@ -53,7 +53,7 @@ def check(kinds, seed, count):
         0, 5, (count // 2, 3)
     )
     origins[::2] = near - 270 * directions[::2]
-    lengths = assert_agree(document, origins, directions, (120.0, 420.0), 250.0, samples=500)
+    lengths = assert_agree(document, origins, directions, (80.0, 480.0), 250.0, samples=600)
     assert np.count_nonzero(lengths) > 0
 
 

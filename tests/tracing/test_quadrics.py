@@ -205,6 +205,24 @@ def test_cuts_move_with_their_leaf(solid, leaf, matrix):
         assert abs(lengths[i] - wanted) * min(1, max(wanted, 1e-4) / 240) <= 2 * SURFACE_MM
 
 
+def test_bounds_hold_every_tip(solid):
+    """The tip of a cone is where its form and its slope are both 0, to rounding."""
+    rng = np.random.default_rng(18)
+    for _ in range(100):
+        start, end = rng.uniform(-40, 40, (2, 3))
+        radius = rng.uniform(1, 30)
+        ends = {"start": start.tolist(), "end": end.tolist()}
+        cone = solid(type="cone", **ends, start_radius=0, end_radius=radius)
+        other = {"start": end.tolist(), "end": start.tolist()}
+        back = solid(type="cone", **other, start_radius=radius, end_radius=0)
+        # A disc of normal k reaches r sqrt(1 - k_i^2) along axis i.
+        k = (end - start) / np.linalg.norm(end - start)
+        reach = radius * np.sqrt(1 - k**2)
+        low, high = np.minimum(start, end - reach), np.maximum(start, end + reach)
+        for shape in (cone, back):
+            np.testing.assert_allclose(shape.bounds, [low, high], atol=2e-6)
+
+
 def random_quadric(rng):
     """Small whole numbers, so that cones, cylinders and pairs of planes come up; and some cuts."""
     coefficients = rng.integers(-2, 3, 10) * rng.integers(0, 2, 10)
