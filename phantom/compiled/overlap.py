@@ -94,7 +94,41 @@ def _near(
     apart &= np.linalg.norm(middle[i] - middle[j], axis=1) <= radius[i] + radius[j]
     i, j = i[apart], j[apart]
     met = _boxes_meet(axes[i], half[i], axes[j], half[j], middle[j] - middle[i])
-    return [(where[a], where[b]) for a, b in zip(i[met], j[met], strict=True)]
+    i, j = i[met], j[met]
+    divided = _divided(parts, where, i, j) | _divided(parts, where, j, i)
+    return [(where[a], where[b]) for a, b in zip(i[~divided], j[~divided], strict=True)]
+
+
+def _divided(
+    parts: list[Traced], where: list[tuple[int, int]], i: Ints, j: Ints
+) -> NDArray[np.bool_]:
+    """Say which pairs an end plane of segment i divides: its own body lies on the inner side.
+
+    Most segments that follow each other round a bend are told apart so.
+    """
+    found = np.zeros(len(i), dtype=bool)
+    samples: dict[int, Floats] = {}
+    for row, (a, b) in enumerate(zip(i, j, strict=True)):
+        if b not in samples:
+            samples[b] = _surface(parts[where[b][0]], where[b][1])
+        cut, k = parts[where[a][0]].segments, where[a][1]
+        heights = samples[b] @ cut.planes[[k, k + 1], :3].T - cut.planes[[k, k + 1], 3]
+        # What the surface may bulge beyond its samples.
+        slack = 0.01 * float(np.ptp(heights, axis=0).max())
+        found[row] = heights[:, 0].max() < -slack or heights[:, 1].min() > slack
+    return found
+
+
+def _surface(traced: Traced, k: int) -> Floats:
+    """Points of the surface of a segment, ``(P, 3)``."""
+    u = np.linspace(traced.segments.knots[k], traced.segments.knots[k + 1], 5)
+    piece = np.repeat(traced.shape.pieces(traced.segments.knots[[k, k + 1]]), 5)
+    placed = traced.shape.sections(u, piece)
+    phi = traced.shape.points(u, 48)
+    phi = np.broadcast_to(phi, (5, *phi.shape[1:]))
+    return np.asarray(
+        (placed.middle[:, None] + np.einsum("nij,nvj->nvi", placed.spread, phi)).reshape(-1, 3)
+    )
 
 
 def _boxes_meet(
@@ -146,7 +180,9 @@ class _Climber:
         self, sheet: str, pairs: Ints, at: Floats, step: Floats
     ) -> tuple[float, float, float]:
         """Pattern search uphill; a point that cannot get inside any more is dropped."""
-        size = np.linalg.norm(np.ptp(self.one.segments.boxes, axis=2), axis=1)[pairs[:, 0]]
+        extent = np.ptp(self.one.segments.boxes, axis=2)[pairs[:, 0]]
+        # How far one step goes, in mm: along the axis, and round the section.
+        size = np.hypot(extent[:, 2] * step[0], 4.0 * extent[:, :2].max(axis=1) * step[1])
         shrink = np.ones(len(at))
         depth, u, other = self._depths(sheet, pairs, at)
         best = (-np.inf, 0.0, 0.0)
@@ -156,8 +192,8 @@ class _Climber:
             if best[0] > tolerances.OVERLAP_MM:
                 break
             # What a few more steps of this length could gain.
-            alive = depth + 6.0 * shrink * step.max() * size > tolerances.OVERLAP_MM
-            alive &= shrink * step.max() * size > 1e-8
+            alive = depth + 4.0 * shrink * size > tolerances.OVERLAP_MM
+            alive &= shrink * size > 1e-8
             if not alive.any():
                 break
             pairs, at, depth, u, other = (v[alive] for v in (pairs, at, depth, u, other))
