@@ -35,6 +35,7 @@ BONE = {
         "offset": [{"knots": [[0, 2], [0.5, -1], [1, 3]]}, -1.5],
     },
 }
+BOX = [[-29, -26, -100], [30, 20, 104]]
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +47,7 @@ def test_the_volume_of_a_bone_from_twenty_directions(bone):
     rng = np.random.default_rng(51)
     wanted = cylinders.volume(BONE)
     directions = [*np.eye(3), *rays.unit(rng.standard_normal((17, 3)))]
-    found = np.array([projection.volume(bone, d, rng, 700_000) for d in directions])
+    found = np.array([projection.volume(bone, d, BOX, rng, 45_000, 0.13) for d in directions])
     assert np.abs(found / wanted - 1).max() <= 1e-5
 
 
@@ -65,8 +66,9 @@ def test_the_volume_of_a_bone_with_a_spline_section(solid):
     }
     wanted = cylinders.volume(leaf)
     shape, rng = solid(**leaf), np.random.default_rng(52)
+    box = [[-17, -15, -68], [20, 23, 69]]
     for d in rays.unit(rng.standard_normal((3, 3))):
-        assert abs(projection.volume(shape, d, rng) / wanted - 1) <= 2e-5
+        assert abs(projection.volume(shape, d, box, rng) / wanted - 1) <= 2e-5
 
 
 def ring(angle_deg, offset, radius=11.0, big=50.0, **more):
@@ -95,8 +97,10 @@ def test_pappus(solid, angle_deg, outward):
     shape = solid(**ring(angle_deg, [0.0, side], frame={"up": [0, 0, 1]}))
     wanted = np.pi * radius**2 * (big + outward) * np.radians(abs(angle_deg))
     rng = np.random.default_rng(53)
+    reach = big + outward + radius
+    box = [[-reach, -reach, -radius], [reach, reach, radius]]
     for d in ([0.2, 0.3, 1.0], [1.0, 0.2, 0.15]):
-        assert abs(projection.volume(shape, d, rng) / wanted - 1) <= 2e-5
+        assert abs(projection.volume(shape, d, box, rng) / wanted - 1) <= 2e-5
 
 
 def test_pappus_with_a_section_off_the_axis_by_its_own_contour(solid):
@@ -114,7 +118,8 @@ def test_pappus_with_a_section_off_the_axis_by_its_own_contour(solid):
     first = quad(lambda a: r(a) ** 3 * np.cos(a) / 3, 0, 2 * np.pi, epsabs=1e-10, limit=200)[0]
     wanted = 2 * np.pi * (50 * area - first)
     assert wanted < 0.95 * 2 * np.pi * 50 * area
-    found = projection.volume(solid(**leaf), [0.3, 0.5, 1], np.random.default_rng(54))
+    box = [[-60, -60, -18], [60, 60, 18]]
+    found = projection.volume(solid(**leaf), [0.3, 0.5, 1], box, np.random.default_rng(54))
     assert abs(found / wanted - 1) <= 2e-5
 
 
@@ -138,8 +143,9 @@ def test_a_helical_tube(solid, turns, frame):
     )
     length = np.hypot(2 * np.pi * big, pitch) * abs(turns)
     rng = np.random.default_rng(55)
+    box = [[-39, -38, -50], [41, 42, abs(turns) * pitch - 30]]
     for d in ([1, 0.3, 0.1], [0.2, 0.1, 1]):
-        found = projection.volume(shape, d, rng)
+        found = projection.volume(shape, d, box, rng)
         assert abs(found / (np.pi * radius**2 * length) - 1) <= 2e-5
 
 
