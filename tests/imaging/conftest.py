@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from phantom.scene import Phantom, load
 
 BALLS: dict[str, Any] = {

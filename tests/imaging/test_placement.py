@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from phantom.scene import Phantom
 
 from phantom.errors import InvalidInputError
 from phantom.imaging import PRESETS, DetectorGrid, Preset, place, preset_view, projection
+from phantom.scene import Phantom
 
 Ball = Callable[..., Phantom]
 

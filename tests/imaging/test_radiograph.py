@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from phantom.scene import Phantom
 
 from phantom.errors import CancelledError, InvalidInputError
 from phantom.imaging import (
@@ -21,6 +20,7 @@ from phantom.imaging import (
     preset_view,
     radiograph,
 )
+from phantom.scene import Phantom
 
 Ball = Callable[..., Phantom]
 Chord = Callable[..., float]
