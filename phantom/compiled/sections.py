@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 
 from phantom.compiled.intervals import Interval, as_interval
 from phantom.compiled.tables import StarTable, derivative_ranges
+from phantom.geometry.star import chart_rays
+from phantom.geometry.vectors import unit
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -80,8 +82,7 @@ def kink_bounds(kinks: Floats, x: Interval, y: Interval) -> tuple[Floats | float
     up: Floats | float = 0.0
     down: Floats | float = 0.0
     for T, rise, fall in kinks:
-        chart, t = min(int(T // 2), 3), T - 2.0 * min(int(T // 2), 3) - 1.0
-        ray = np.array([[1.0, t], [-t, 1.0], [-1.0, -t], [t, -1.0]])[chart] / np.hypot(1.0, t)
+        ray = unit(chart_rays(np.array([T])))[0]
         along, across = x * ray[0] + y * ray[1], y * ray[0] - x * ray[1]
         touched = (across.low <= 1e-12) & (across.high >= -1e-12) & (along.high >= 0)
         size = np.where(touched, np.maximum(along.high, 0.0), 0.0)

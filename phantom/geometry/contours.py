@@ -24,6 +24,7 @@ from phantom.geometry.outlines import (
 )
 from phantom.geometry.partition import star_parts
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.vectors import plane_cross
 
 Floats = NDArray[np.float64]
 
@@ -50,10 +51,6 @@ class Contour:
             angle = 2 * np.pi * np.arange(count) / count
             return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         return outline_points(self.outline, count)
-
-    def points(self, count: int) -> Floats:
-        """Return about ``count`` points of the curve in mm, ``(n, 2)``."""
-        return np.asarray(self.unit_points(count) @ self.matrix.T + self.center)
 
 
 def outline_points(outline: Outline, count: int) -> Floats:
@@ -234,7 +231,7 @@ def star(
     """
     samples = outline_samples(outline, 1024)
     points, first = samples[0], samples[1]
-    area = 0.5 * _cross(points, np.roll(points, -1, axis=0)).sum()
+    area = 0.5 * plane_cross(points, np.roll(points, -1, axis=0)).sum()
     reverse = bool(area < 0)
     keep = np.linalg.norm(first, axis=1) > 0
     edges = first[keep] / np.linalg.norm(first[keep], axis=1)[:, None] * (-1.0 if reverse else 1.0)
@@ -257,13 +254,9 @@ def star(
     return Contour(np.eye(2) * scale, center, finer(placed))
 
 
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
-
-
 def _centroid(points: Floats) -> Floats:
     following = np.roll(points, -1, axis=0)
-    weights = _cross(points, following)
+    weights = plane_cross(points, following)
     if abs(weights.sum()) <= 1e-9 * np.abs(weights).sum():
         # A curve that crosses itself may enclose nothing in all.
         return np.asarray(points.mean(axis=0))
@@ -272,7 +265,7 @@ def _centroid(points: Floats) -> Floats:
 
 def _margin(center: Floats, points: Floats, edges: Floats) -> float:
     """Distance from the centre to the nearest tangent line, negative outside one."""
-    return float(_cross(edges, center - points).min())
+    return float(plane_cross(edges, center - points).min())
 
 
 def _deepest(points: Floats, edges: Floats, size: float) -> Floats:
@@ -281,7 +274,7 @@ def _deepest(points: Floats, edges: Floats, size: float) -> Floats:
 
     # cross(e, c - p) >= m for all samples; maximise m over c = (x, y).
     rows = np.stack([edges[:, 1], -edges[:, 0], np.ones(len(edges))], axis=-1)
-    limits = -_cross(edges, points)
+    limits = -plane_cross(edges, points)
     span = [(-size + points[:, k].min(), size + points[:, k].max()) for k in range(2)]
     answer = linprog([0, 0, -1], A_ub=rows, b_ub=limits, bounds=[*span, (-2 * size, size)])
     return np.asarray(answer.x, dtype=np.float64)[:2]
@@ -293,8 +286,8 @@ def check_simple(outline: Outline) -> None:
     points = outline_samples(outline, 1024, 0.382)[0]
     a, b = points, np.roll(points, -1, axis=0)
     d = b - a
-    side_a = _cross(d[:, None], a[None] - a[:, None])
-    side_b = _cross(d[:, None], b[None] - a[:, None])
+    side_a = plane_cross(d[:, None], a[None] - a[:, None])
+    side_b = plane_cross(d[:, None], b[None] - a[:, None])
     # Stretches of one straight edge lie on one line: rounding must not make them cross.
     least = 1e-12 * float(np.ptp(points, axis=0).max()) * np.linalg.norm(d, axis=1)[:, None]
     side_a = np.where(np.abs(side_a) <= least, 0.0, side_a)

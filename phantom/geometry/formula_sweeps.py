@@ -17,6 +17,7 @@ from phantom.geometry.formulas import Formula
 from phantom.geometry.outlines import Outline
 from phantom.geometry.refusal import RefusalError
 from phantom.geometry.star import chart_rays, kinks, pseudo_angle
+from phantom.geometry.vectors import plane_cross
 
 Floats = NDArray[np.float64]
 
@@ -69,7 +70,7 @@ class FormulaSections:
         sampled = self.placed(u)
         centers = self.centers(u)
         seen = sampled - centers[:, None]
-        turn = np.sign(_cross(seen, np.roll(seen, -1, axis=1)).sum(axis=1))
+        turn = np.sign(plane_cross(seen, np.roll(seen, -1, axis=1)).sum(axis=1))
         rays = chart_rays(T)
         # The last sample before each ray, going round in the contour's own direction.
         index = np.empty((len(u), len(T)), dtype=np.intp)
@@ -88,8 +89,8 @@ class FormulaSections:
         step = np.diff(breaks)[piece] / each
         low = breaks[piece] + (index % each) * step
         high = low + step
-        f_low = turn[:, None] * _cross(rays[None], before)
-        f_high = turn[:, None] * _cross(rays[None], after)
+        f_low = turn[:, None] * plane_cross(rays[None], before)
+        f_high = turn[:, None] * plane_cross(rays[None], after)
         all_u = np.broadcast_to(u[:, None], low.shape)
         point = np.zeros((*low.shape, 2))
         side = np.zeros(low.shape, dtype=np.intp)
@@ -99,7 +100,7 @@ class FormulaSections:
             v = np.where((rise != 0) & (v >= low) & (v <= high), v, 0.5 * (low + high))
             plane = self.outline.derivatives(v.ravel(), piece.ravel())[0].reshape(*v.shape, 2)
             point = self._map(plane[..., 0], plane[..., 1], all_u) - centers[:, None]
-            f = turn[:, None] * _cross(rays[None], point)
+            f = turn[:, None] * plane_cross(rays[None], point)
             under = f <= 0
             # Illinois: an end that stays twice counts half, so that both close in.
             f_high = np.where(under & (side == -1), 0.5 * f_high, f_high)
@@ -112,10 +113,6 @@ class FormulaSections:
             if np.all(np.abs(f) <= 1e-12 * size * np.linalg.norm(rays, axis=-1)):
                 break
         return np.asarray(np.linalg.norm(point, axis=-1).T)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
 def formula_sections(
@@ -176,7 +173,7 @@ def _check_inverse(
 
 def _check_star(sections: FormulaSections, placed: Floats, u: Floats) -> None:
     seen = placed - sections.centers(u)[:, None]
-    sides = _cross(seen, np.roll(seen, -1, axis=1))
+    sides = plane_cross(seen, np.roll(seen, -1, axis=1))
     sides = sides * np.sign(sides.sum(axis=1))[:, None]
     turns = np.abs(
         np.sum(np.arctan2(sides, np.einsum("nvi,nvi->nv", seen, np.roll(seen, -1, axis=1))), axis=1)

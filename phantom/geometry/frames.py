@@ -20,6 +20,7 @@ from phantom.geometry import tolerances
 from phantom.geometry.curves import Curve, lowest, sample_parameters
 from phantom.geometry.frenet import frenet
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.vectors import dots, unit
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -37,22 +38,14 @@ class Frame(Protocol):
         """Return the unit vectors n, ``(n, 3)``; b is t x n."""
 
 
-def _dots(a: Floats, b: Floats) -> Floats:
-    return np.asarray(np.einsum("...i,...i->...", a, b))
-
-
-def _unit(vectors: Floats) -> Floats:
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
-
-
 def tangents(curve: Curve, u: Floats, piece: Ints) -> Floats:
     """Return the unit tangents ``(n, 3)``."""
-    return _unit(curve.derivatives(u, piece, 1)[1])
+    return unit(curve.derivatives(u, piece, 1)[1])
 
 
 def _projected(m: Floats, t: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the unit projection r1 of m across t, r2 = t x r1, and the projection's length."""
-    r1 = m - t * _dots(m, t)[..., None]
+    r1 = m - t * dots(m, t)[..., None]
     length = np.linalg.norm(r1, axis=-1)
     r1 = r1 / length[..., None]
     return r1, np.cross(t, r1), length
@@ -85,7 +78,7 @@ def _cells(curve: Curve) -> tuple[Floats, Ints]:
     edges, owners = [curve.breaks[:1]], []
     u, piece = sample_parameters(curve.breaks, 129)
     t = tangents(curve, u, piece).reshape(-1, 129, 3)
-    steps = np.arccos(np.clip(_dots(t[:, 1:], t[:, :-1]), -1, 1))
+    steps = np.arccos(np.clip(dots(t[:, 1:], t[:, :-1]), -1, 1))
     for k, turn in enumerate(np.cumsum(steps, axis=1)):
         count = max(2, int(np.ceil(turn[-1] / _CELL_TURN_RAD)))
         edges.append(np.linspace(curve.breaks[k], curve.breaks[k + 1], count + 1)[1:])
@@ -120,11 +113,11 @@ def _rates(curve: Curve, edges: Floats, owners: Ints) -> tuple[Floats, NDArray[n
     _, d1, d2 = curve.derivatives(u.ravel(), piece, 2)
     speed = np.linalg.norm(d1, axis=1)
     t = (d1 / speed[:, None]).reshape(-1, _SERIES, 3)
-    bend = ((d2 - d1 * (_dots(d1, d2) / speed**2)[:, None]) / speed[:, None]).reshape(t.shape)
+    bend = ((d2 - d1 * (dots(d1, d2) / speed**2)[:, None]) / speed[:, None]).reshape(t.shape)
 
     references = _references(curve, edges, owners)
     _, r2, length = _projected(references[:, None, :], t)
-    rate = _dots(references[:, None, :], t) * _dots(bend, r2) / length
+    rate = dots(references[:, None, :], t) * dots(bend, r2) / length
     transform = np.linalg.inv(chebyshev.chebvander(nodes, _SERIES - 1))
     series = rate @ transform.T
     left = np.abs(series[:, -3:]).max(axis=1) * np.diff(edges)
@@ -201,7 +194,7 @@ def frame(spec: doc.Frame, curve: Curve) -> Framed:
 
 
 def _up(spec: doc.UpFrame, curve: Curve) -> UpFrame:
-    up = _unit(np.array(spec.up, dtype=np.float64))
+    up = unit(np.array(spec.up, dtype=np.float64))
 
     def sine(u: Floats, piece: Ints) -> Floats:
         return np.asarray(np.linalg.norm(np.cross(tangents(curve, u, piece), up), axis=1))

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from phantom.geometry import tolerances
 from phantom.geometry.curves import Curve, sample_parameters
+from phantom.geometry.vectors import dots, unit
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -67,20 +68,12 @@ class FrenetFrame:
             result[~flat] = curved_normals(self.curve, u[~flat], piece[~flat], self.length)
         if np.any(flat):
             at, k = u[flat], piece[flat]
-            t = _unit(self.curve.derivatives(at, k, 1)[1])
-            n = _unit(self.origin[k] - t * _dots(self.origin[k], t)[:, None])
+            t = unit(self.curve.derivatives(at, k, 1)[1])
+            n = unit(self.origin[k] - t * dots(self.origin[k], t)[:, None])
             share = (at - self.range[k, 0]) / (self.range[k, 1] - self.range[k, 0])
             angle = (share * self.turn_rad[k])[:, None]
             result[flat] = np.cos(angle) * n + np.sin(angle) * np.cross(t, n)
         return result
-
-
-def _dots(a: Floats, b: Floats) -> Floats:
-    return np.asarray(np.einsum("...i,...i->...", a, b))
-
-
-def _unit(vectors: Floats) -> Floats:
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def curved_normals(curve: Curve, u: Floats, piece: Ints, length: float) -> Floats:
@@ -92,7 +85,7 @@ def curved_normals(curve: Curve, u: Floats, piece: Ints, length: float) -> Float
     _, first, second = curve.derivatives(u, piece, 2)
     speed = np.linalg.norm(first, axis=1)
     t = first / speed[:, None]
-    bend = second - t * _dots(second, t)[:, None]
+    bend = second - t * dots(second, t)[:, None]
     gone = np.linalg.norm(bend, axis=1) * length < _VANISHED * speed**2
     if gone.any():
         middle = 0.5 * (curve.breaks[piece[gone]] + curve.breaks[piece[gone] + 1])
@@ -101,14 +94,14 @@ def curved_normals(curve: Curve, u: Floats, piece: Ints, length: float) -> Float
         found = np.zeros((int(gone.sum()), 3))
         done = np.zeros(len(found), dtype=bool)
         for order in range(3, _ORDERS + 1):
-            v = higher[order] - t[gone] * _dots(higher[order], t[gone])[:, None]
+            v = higher[order] - t[gone] * dots(higher[order], t[gone])[:, None]
             size = np.linalg.norm(v, axis=1) * length ** (order - 1)
             leads = ~done & (size > 1e-6 * speed[gone] ** order)
             sign = np.where(right, 1.0, (-1.0) ** order)
             found[leads] = (sign[:, None] * v)[leads]
             done |= leads
         bend[gone] = np.where(done[:, None], found, bend[gone])
-    return _unit(bend)
+    return unit(bend)
 
 
 def frenet(curve: Curve) -> tuple[Curve, FrenetFrame, tuple[str, ...]] | None:
@@ -130,7 +123,7 @@ def frenet(curve: Curve) -> tuple[Curve, FrenetFrame, tuple[str, ...]] | None:
     places: list[float] = []
     for k in np.flatnonzero(~straight):
         grid = u.reshape(-1, _PER_PIECE)[k]
-        opposed = _dots(turned[k, 1:], turned[k, :-1]) < 0
+        opposed = dots(turned[k, 1:], turned[k, :-1]) < 0
         vanishing = size[k, 1:-1] < 1e-3 * tolerances.STRAIGHT
         for i in np.flatnonzero(opposed):
             place = _inflection(curve, int(k), grid[i], grid[i + 1])
@@ -197,7 +190,7 @@ def _over_straights(curve: SplitCurve, straight: NDArray[np.bool_], length: floa
             has_after = curve.closed or part[-1] % count != count - 1
             n0 = limit(before % count, 1) if has_before else limit(after % count, 0)
             n1 = limit(after % count, 0) if has_after else n0
-            tangent = _unit(
+            tangent = unit(
                 curve.derivatives(curve.breaks[[part[0] % count]], np.array([part[0] % count]), 1)[
                     1
                 ]
@@ -236,7 +229,7 @@ def _warnings(curve: SplitCurve, frame: FrenetFrame) -> tuple[str, ...]:
             )
     u, piece = sample_parameters(curve.breaks, _PER_PIECE)
     n = frame.normals(u, piece)
-    step = np.arccos(np.clip(_dots(n[1:], n[:-1]), -1, 1))
+    step = np.arccos(np.clip(dots(n[1:], n[:-1]), -1, 1))
     # Jumps were told above; within pieces, how far n turns over a short stretch of the axis.
     turned = np.concatenate([[0.0], np.cumsum(np.where(piece[1:] == piece[:-1], step, 0.0))])
     ahead = np.searchsorted(u, u + _SPIKE_SHARE * (u[-1] - u[0]), side="right") - 1

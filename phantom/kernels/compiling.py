@@ -81,8 +81,3 @@ def kernel(function: Kernel) -> Kernel:
     finally:
         settings.CACHE_DIR = before
     return cast(Kernel, compiled)
-
-
-def is_compiled() -> bool:
-    """Say whether some kernels are already in the cache, so that the first call will be quick."""
-    return any(Path(cache_folder()).rglob("*.nbi"))

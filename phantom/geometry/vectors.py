@@ -1,0 +1,23 @@
+"""Arrays of vectors along their last axis."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def dots(a: Floats, b: Floats) -> Floats:
+    """Return the products ``a . b``."""
+    return np.asarray(np.einsum("...i,...i->...", a, b))
+
+
+def unit(vectors: Floats) -> Floats:
+    """Scale to length 1."""
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+
+
+def plane_cross(a: Floats, b: Floats) -> Floats:
+    """Return ``a x b`` of vectors in a plane: positive where b lies anticlockwise of a."""
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
