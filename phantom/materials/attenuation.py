@@ -9,8 +9,11 @@ Schoonjans et al., Spectrochim. Acta B 66 (2011) 776-784, doi:10.1016/j.sab.2011
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
 
 from phantom.errors import InvalidInputError, Problem
 from phantom.materials.elements import ATOMIC_NUMBERS
@@ -34,7 +37,15 @@ def check_energy(energy_kev: float) -> tuple[Problem, ...]:
 def attenuation_per_mm(
     composition: Mapping[str, float], density_g_cm3: float, energy_kev: float
 ) -> float:
-    """Return the total linear attenuation coefficient, coherent scattering included, in 1/mm.
+    """Return the coefficient at one energy, in 1/mm; see :func:`attenuation_curve_per_mm`."""
+    energies = np.array([energy_kev], dtype=np.float64)
+    return float(attenuation_curve_per_mm(composition, density_g_cm3, energies)[0])
+
+
+def attenuation_curve_per_mm(
+    composition: Mapping[str, float], density_g_cm3: float, energies_kev: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the (K,) total linear attenuation, coherent scattering included, in 1/mm.
 
     Parameters
     ----------
@@ -42,28 +53,43 @@ def attenuation_per_mm(
         Mass fraction of every element by its symbol; they are taken as they are, not normalised.
     density_g_cm3
         Mass density in g/cm³.
-    energy_kev
-        Photon energy in keV, within :data:`ENERGY_LIMITS_KEV`.
+    energies_kev
+        (K,) photon energies in keV, within :data:`ENERGY_LIMITS_KEV`.
 
     Raises
     ------
     InvalidInputError
-        The energy is outside the tables (``/beam/energy_kev``), or a symbol is no known element.
+        An energy is outside the tables (``/beam/energy_kev``), or a symbol is no known element.
     """
-    problems = check_energy(energy_kev) + tuple(
+    _check(composition, energies_kev)
+    import xraylib_np
+
+    numbers = np.array([ATOMIC_NUMBERS[symbol] for symbol in composition], dtype=np.int_)
+    by_element = xraylib_np.CS_Total(numbers, np.asarray(energies_kev, dtype=np.float64))
+    mass_attenuation_cm2_g = np.zeros(len(energies_kev))
+    for fraction, values in zip(composition.values(), by_element, strict=True):
+        mass_attenuation_cm2_g += fraction * values
+    return mass_attenuation_cm2_g * density_g_cm3 * _CM_PER_MM
+
+
+def k_edges_kev(symbols: Iterable[str]) -> tuple[float, ...]:
+    """Return the K-edges of these elements that lie at served energies, rising, in keV."""
+    import xraylib
+
+    least, greatest = ENERGY_LIMITS_KEV
+    edges = {xraylib.EdgeEnergy(ATOMIC_NUMBERS[s], xraylib.K_SHELL) for s in symbols}
+    return tuple(sorted(float(edge) for edge in edges if least <= edge <= greatest))
+
+
+def _check(composition: Mapping[str, float], energies_kev: NDArray[np.float64]) -> None:
+    """Refuse energies outside the tables and symbols that are no element."""
+    problems = [p for energy in energies_kev.tolist() for p in check_energy(energy)]
+    problems += [
         Problem(
             f"/composition/{symbol}", "unknown_element", f"{symbol!r} is not an element, H to Cf"
         )
         for symbol in composition
         if symbol not in ATOMIC_NUMBERS
-    )
+    ]
     if problems:
-        raise InvalidInputError(problems)
-
-    import xraylib
-
-    mass_attenuation_cm2_g = math.fsum(
-        fraction * xraylib.CS_Total(ATOMIC_NUMBERS[symbol], energy_kev)
-        for symbol, fraction in composition.items()
-    )
-    return float(mass_attenuation_cm2_g * density_g_cm3 * _CM_PER_MM)
+        raise InvalidInputError(dict.fromkeys(problems))
