@@ -7,6 +7,7 @@ import numpy as np
 import phantom
 
 SURFACE_MM = 1e-8
+STEPS_MM = (1e-9, 2e-9, 3e-9, 4.5e-9, 6e-9, 9e-9, 1.2 * SURFACE_MM)
 
 
 @dataclass(frozen=True)
@@ -16,6 +17,8 @@ class Comparison:
     ends: int
     ends_off: int
     """Ends with no surface of the twin within 1.2 times the tolerance."""
+    within_mm: float
+    """The smallest of a few steps within which every other end has a surface of the twin."""
     false_pieces: int
     """Pieces longer than 1e-6 mm whose middle is not inside."""
     lost: int
@@ -44,7 +47,7 @@ def compare(shape, twin, origins, directions, span, reach, samples=200):
     ray = np.concatenate([pieces.ray, pieces.ray])
     distance = np.concatenate([pieces.entry_mm, pieces.exit_mm])
     ray, distance = ray[distance > 0], distance[distance > 0]
-    on = twin.surface_within(origins[ray] + distance[:, None] * unit[ray], 1.2 * SURFACE_MM)
+    on, within = _on_surface(twin, origins[ray] + distance[:, None] * unit[ray])
     middle = 0.5 * (pieces.entry_mm + pieces.exit_mm)
     left = twin.survivors(origins[pieces.ray] + middle[:, None] * unit[pieces.ray])
     left = left[np.arange(len(middle)), pieces.leaf]
@@ -66,12 +69,28 @@ def compare(shape, twin, origins, directions, span, reach, samples=200):
         hits=sum(len(e) > 0 for e in ends),
         ends=len(on),
         ends_off=int(np.count_nonzero(~on)),
+        within_mm=within,
         false_pieces=int(np.count_nonzero(~left & (pieces.exit_mm - pieces.entry_mm > 1e-6))),
         lost=lost,
         slivers=slivers,
         implied_mm=float(implied.max()),
         worst_ray=int(np.argmax(implied)),
     )
+
+
+def _on_surface(twin, points):
+    """Which points have a surface within the last step, and the step that is enough for those."""
+    left, enough = np.arange(len(points)), STEPS_MM[0]
+    for step in STEPS_MM:
+        if not len(left):
+            break
+        near = twin.surface_within(points[left], step)
+        if near.any():
+            enough = step
+        left = left[~near]
+    on = np.ones(len(points), dtype=bool)
+    on[left] = False
+    return on, enough
 
 
 def matched(one, two, least):

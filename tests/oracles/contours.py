@@ -90,29 +90,47 @@ def spline(points):
 
 
 def _inside_spline(curve):
-    """Even-odd rule along +x, with the curve cut where y turns round."""
+    """Even-odd rule along +x, with the curve cut where x or y turns round."""
     turning = curve.derivative()
     cuts = [curve.x]
     for i in range(len(curve.x) - 1):
-        roots = np.roots(turning.c[:, i, 1])
-        roots = roots[np.abs(roots.imag) < 1e-12].real
-        cuts.append(curve.x[i] + roots[(roots > 0) & (roots < curve.x[i + 1] - curve.x[i])])
+        for k in range(2):
+            roots = np.roots(turning.c[:, i, k])
+            roots = roots[np.abs(roots.imag) < 1e-12].real
+            cuts.append(curve.x[i] + roots[(roots > 0) & (roots < curve.x[i + 1] - curve.x[i])])
     v = np.unique(np.concatenate(cuts))
-    y = curve(v)[:, 1]
-    y[-1] = y[0]
+    corners = curve(v)
+    corners[-1] = corners[0]
+    return even_odd(v, corners, lambda v: curve(v).T)
+
+
+def even_odd(v, corners, curve):
+    """Inside test of a closed curve that is monotone in x and in y between the parameters v.
+
+    Each piece lies in the box of its ends: a point left of the box looks at it, one right of it
+    does not, and for one within it the place at its height is found by halves.
+    """
+    y0, y1 = corners[:-1, 1], corners[1:, 1]
+    left, right = np.sort(np.stack([corners[:-1, 0], corners[1:, 0]]), axis=0)
 
     def test(px, py):
-        crossings = np.zeros(len(px), dtype=int)
-        for i in range(len(v) - 1):
-            rising = y[i + 1] > y[i]
-            hit = np.flatnonzero((py >= y[i]) != (py >= y[i + 1]))
-            low, high = np.full(len(hit), v[i]), np.full(len(hit), v[i + 1])
-            for _ in range(52):
-                middle = 0.5 * (low + high)
-                below = (curve(middle)[:, 1] <= py[hit]) == rising
-                low, high = np.where(below, middle, low), np.where(below, high, middle)
-            crossings[hit] += curve(0.5 * (low + high))[:, 0] > px[hit]
-        return crossings % 2 == 1
+        odd = np.zeros(len(px), dtype=bool)
+        for k in range(0, len(px), 4000):
+            odd[k : k + 4000] = crossings(px[k : k + 4000], py[k : k + 4000]) % 2
+        return odd
+
+    def crossings(px, py):
+        beside = (py[:, None] >= y0) != (py[:, None] >= y1)
+        found = np.count_nonzero(beside & (px[:, None] < left), axis=1)
+        who, i = np.nonzero(beside & (px[:, None] >= left) & (px[:, None] <= right))
+        rising = y1[i] > y0[i]
+        low, high = v[i], v[i + 1]
+        for _ in range(52):
+            middle = 0.5 * (low + high)
+            below = (curve(middle)[1] <= py[who]) == rising
+            low, high = np.where(below, middle, low), np.where(below, high, middle)
+        np.add.at(found, who, curve(0.5 * (low + high))[0] > px[who])
+        return found
 
     return test
 

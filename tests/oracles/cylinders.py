@@ -11,6 +11,8 @@ from scipy.interpolate import BSpline, CubicSpline
 
 from tests.oracles import contours
 
+FOOT = 2e-15
+
 
 class Axis:
     """a(u) and its derivatives, with the places where a third derivative may jump."""
@@ -240,30 +242,33 @@ class Solid:
         return np.linalg.solve(matrix, plane[:, :, None])[:, :, 0]
 
     def _foot(self, x, low, high):
-        """The root of (x - a) . a' between low and high: bisection, then Newton steps inside."""
+        """The root of (x - a) . a' between low and high: Newton steps, or halves where they leave.
 
-        def f(u):
-            return ((x - self.axis(u)) * self.axis(u, 1)).sum(axis=1)
-
-        if not len(x):
-            return low
-        ahead = f(low) >= 0
-        low, high = low.copy(), high.copy()
+        A point is done when its step is some 1e-12 mm along the axis.
+        """
         u = 0.5 * (low + high)
+        low, high, out = low.copy(), high.copy(), u.copy()
+        left = np.arange(len(x))
+        ahead = self._ahead(x, low) >= 0
         for _ in range(60):
-            value = f(u)
+            if not len(left):
+                break
+            first, away = self.axis(u, 1), x - self.axis(u)
+            value = (away * first).sum(axis=1)
             same = (value >= 0) == ahead
             low, high = np.where(same, u, low), np.where(same, high, u)
-            first = self.axis(u, 1)
-            slope = ((x - self.axis(u)) * self.axis(u, 2)).sum(axis=1) - (first**2).sum(axis=1)
+            slope = (away * self.axis(u, 2)).sum(axis=1) - (first**2).sum(axis=1)
             with np.errstate(divide="ignore", invalid="ignore"):
                 step = u - value / slope
-            good = (step > low) & (step < high)
+            good = (step >= low) & (step <= high)
             new = np.where(good, step, 0.5 * (low + high))
-            if np.all(np.abs(new - u) <= 1e-16 + 4e-16 * np.abs(u)):
-                return new
-            u = new
-        return u
+            out[left] = new
+            on = np.abs(new - u) > FOOT
+            left, x, u, low, high, ahead = (v[on] for v in (left, x, new, low, high, ahead))
+        return out
+
+    def _ahead(self, x, u):
+        return ((x - self.axis(u)) * self.axis(u, 1)).sum(axis=1)
 
 
 def membership(leaf, samples=400):

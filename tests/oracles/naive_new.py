@@ -51,35 +51,22 @@ def inside(contour):
 
 
 def _inside_curve(x, y, first, last):
-    """Even-odd rule along +x, the curve cut where y turns round."""
+    """Even-odd rule along +x, the curve cut where x or y turns round."""
     v = np.linspace(first, last, TURNING_SAMPLES + 1)
-    rate = slope(y, v)
-    cuts = [first, last]
-    for i in np.flatnonzero(np.sign(rate[1:]) != np.sign(rate[:-1])):
-        low, high = v[i], v[i + 1]
+    cuts = [[first, last]]
+    for part in (x, y):
+        rate = np.sign(slope(part, v))
+        turns = np.flatnonzero(rate[1:] != rate[:-1])
+        low, high = v[turns], v[turns + 1]
         for _ in range(60):
             middle = 0.5 * (low + high)
-            same = np.sign(slope(y, np.array([middle]))[0]) == np.sign(rate[i])
-            low, high = (middle, high) if same else (low, middle)
+            same = np.sign(slope(part, middle)) == rate[turns]
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
         cuts.append(0.5 * (low + high))
-    cuts = np.unique(cuts)
-    heights = y(cuts)
-    heights[-1] = heights[0]
-
-    def test(px, py):
-        odd = np.zeros(len(px), dtype=bool)
-        for i in range(len(cuts) - 1):
-            rising = heights[i + 1] > heights[i]
-            hit = np.flatnonzero((py >= heights[i]) != (py >= heights[i + 1]))
-            low, high = np.full(len(hit), cuts[i]), np.full(len(hit), cuts[i + 1])
-            for _ in range(52):
-                middle = 0.5 * (low + high)
-                below = (y(middle) <= py[hit]) == rising
-                low, high = np.where(below, middle, low), np.where(below, high, middle)
-            odd[hit] ^= x(0.5 * (low + high)) > px[hit]
-        return odd
-
-    return test
+    cuts = np.unique(np.concatenate(cuts))
+    corners = np.stack([x(cuts), y(cuts)], axis=1)
+    corners[-1] = corners[0]
+    return contours.even_odd(cuts, corners, lambda v: (x(v), y(v)))
 
 
 def radius(contour):

@@ -83,7 +83,9 @@ def test_kinds_with_kinds(kinds):
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("seed", range(10_000, 10_000 + NIGHTLY_SOLIDS))
-def test_random_solids(seed):
+def test_random_solids(seed, record_property):
     kinds = families_new.any_kinds(np.random.default_rng(seed))
     found = figures(kinds, seed, NIGHTLY_RAYS, 120)
+    for name, value in vars(found).items():
+        record_property(name, value)
     assert found.right(), (kinds, found)
