@@ -1,11 +1,12 @@
 """From a result to the bytes of a file: one registry of formats, whole files only."""
 
+from phantom.encode.attributes import METADATA_KEY
 from phantom.encode.encoding import Encoded, encode, save
 from phantom.encode.files import write_atomically
 from phantom.encode.formats import FORMATS, Format, format_named, format_of_path
 from phantom.encode.npy import npy
 from phantom.encode.picture import Picture
-from phantom.encode.png import METADATA_KEY, png
+from phantom.encode.png import png
 
 __all__ = [
     "FORMATS",

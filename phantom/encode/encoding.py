@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from numpy.typing import NDArray
-
+from phantom.encode.content import Content
 from phantom.encode.files import write_atomically
 from phantom.encode.formats import FORMATS, Format, format_named, format_of_path
 from phantom.encode.picture import Picture
+from phantom.encode.sidecar import sidecar as sidecar_bytes
 from phantom.errors import InvalidInputError, Problem
 
 PresentationT = TypeVar("PresentationT")
@@ -25,10 +25,13 @@ class Encoded(NamedTuple):
         The bytes; the same for the same result.
     media_type
         What they are.
+    beside
+        What a sidecar says of them, as plain JSON values.
     """
 
     data: bytes
     media_type: str
+    beside: Mapping[str, Any]
 
 
 def encode(
@@ -36,6 +39,8 @@ def encode(
     quantity: str = "signal",
     presentation: PresentationT | None = None,
     format: Format | str = FORMATS[0],
+    *,
+    blind: bool = False,
 ) -> Encoded:
     """Return a result as the content of a file.
 
@@ -44,11 +49,14 @@ def encode(
     picture
         The result, such as a ``phantom.imaging.Radiograph``.
     quantity
-        What to write, such as ``signal`` or ``path_lengths``.
+        What to write, such as ``signal`` or ``path_lengths``; OpenEXR holds all of them.
     presentation
         How a quantity becomes grey levels; formats that hold numbers do not use it.
     format
         A :class:`Format`, its name or its media type.
+    blind
+        Leave out what the file says of itself, so that a reader learns nothing from it. What a
+        format cannot do without stays: pitch, orientation and body part of a DICOM file.
 
     Raises
     ------
@@ -60,12 +68,9 @@ def encode(
         held = ", ".join(chosen.quantities)
         message = f"found {quantity!r}, but {chosen.name} holds one of {held}"
         raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
-    array: NDArray[Any]
-    if chosen.presented:
-        array = picture.presented(quantity, presentation)
-    else:
-        array = picture.quantity(quantity)
-    return Encoded(chosen.write(array, picture.metadata()), chosen.media_type)
+    layers, file = chosen.take(picture, quantity, presentation)
+    content = Content(layers, {"format": chosen.name, **file}, picture.metadata(), blind)
+    return Encoded(chosen.write(content), chosen.media_type, content.beside)
 
 
 def save(
@@ -75,6 +80,7 @@ def save(
     presentation: PresentationT | None = None,
     *,
     sidecar: bool = False,
+    blind: bool = False,
 ) -> None:
     """Write a result to a file, whole or not at all; the extension says the format.
 
@@ -86,8 +92,7 @@ def save(
         An unknown extension, a quantity the format cannot hold, or no such folder.
     """
     path = Path(path)
-    encoded = encode(picture, quantity, presentation, format_of_path(path))
+    encoded = encode(picture, quantity, presentation, format_of_path(path), blind=blind)
     write_atomically(path, encoded.data)
     if sidecar:
-        text = json.dumps(picture.metadata(), ensure_ascii=False, allow_nan=False, indent=1)
-        write_atomically(path.with_suffix(".json"), f"{text}\n".encode())
+        write_atomically(path.with_suffix(".json"), sidecar_bytes(encoded.beside))

@@ -1,23 +1,36 @@
 """The formats that can be written: by extension and by media type.
 
-A format is one writer. What needs grey levels (PNG) is presented first; what holds numbers (NPY)
-takes a quantity as it is.
+A format says what it takes from a result (grey levels, the numbers of a quantity, codes for them,
+every quantity as a layer, or nothing but the metadata) and has one writer for it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
-from numpy.typing import NDArray
-
+from phantom.encode.content import (
+    IMAGES,
+    Content,
+    Take,
+    codes,
+    everything,
+    grey,
+    nothing,
+    numbers,
+)
+from phantom.encode.dicom import for_presentation, for_processing, judged
+from phantom.encode.exr import exr
+from phantom.encode.jpeg import jpeg
 from phantom.encode.npy import npy
 from phantom.encode.png import png
+from phantom.encode.sidecar import sidecar
+from phantom.encode.tiff import tiff
 from phantom.errors import InvalidInputError, Problem
 
-Writer = Callable[[NDArray[Any], dict[str, Any]], bytes]
+QUANTITIES: Final = (*IMAGES, "path_lengths")
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,44 +42,67 @@ class Format:
     name
         Short name; also what a request calls it.
     extensions
-        In lower case, with the dot.
+        In lower case, with the dot; the longest that fits a file's name counts.
     media_type
         As in ``Accept`` and ``Content-Type``.
-    presented
-        True where it holds grey levels, False where it holds the numbers of a quantity.
     quantities
         The quantities it can hold.
+    take
+        Takes from a result what the format holds.
     write
-        Takes the array and the metadata; the metadata is left out where the format cannot hold it.
+        Makes the bytes; the metadata is left out where the format cannot hold it.
     """
 
     name: str
     extensions: tuple[str, ...]
     media_type: str
-    presented: bool
     quantities: tuple[str, ...]
-    write: Writer
+    take: Take
+    write: Callable[[Content], bytes]
 
 
 FORMATS: Final[tuple[Format, ...]] = (
+    Format("png", (".png",), "image/png", IMAGES, grey, lambda c: png(c.only, c.told)),
+    Format("npy", (".npy",), "application/x-npy", QUANTITIES, numbers, lambda c: npy(c.only)),
     Format(
-        "png",
-        (".png",),
-        "image/png",
-        presented=True,
-        quantities=("signal", "transmission", "line_integral"),
-        write=png,
+        "npy-uint16",
+        (".u16.npy",),
+        "application/x-npy;dtype=uint16",
+        IMAGES,
+        codes,
+        lambda c: npy(c.only),
+    ),
+    Format("tiff", (".tif", ".tiff"), "image/tiff", IMAGES, grey, lambda c: tiff(c.only, c.told)),
+    Format(
+        "tiff-float32",
+        (".f32.tif", ".f32.tiff"),
+        "image/tiff;dtype=float32",
+        IMAGES,
+        numbers,
+        lambda c: tiff(c.only, c.told),
     ),
     Format(
-        "npy",
-        (".npy",),
-        "application/x-npy",
-        presented=False,
-        quantities=("signal", "transmission", "line_integral", "path_lengths"),
-        write=npy,
+        "exr", (".exr",), "image/x-exr", QUANTITIES, everything, lambda c: exr(c.layers, c.told)
+    ),
+    Format("jpeg", (".jpg", ".jpeg"), "image/jpeg", IMAGES, grey, lambda c: jpeg(c.only, c.told)),
+    Format("dicom", (".dcm",), "application/dicom", IMAGES, judged(grey), for_presentation),
+    Format(
+        "dicom-processing",
+        (".raw.dcm",),
+        "application/dicom;intent=processing",
+        IMAGES,
+        judged(codes),
+        for_processing,
+    ),
+    Format(
+        "json", (".json",), "application/json", QUANTITIES, nothing, lambda c: sidecar(c.beside)
     ),
 )
 """Every format, the default first."""
+
+_OF_EXTENSION: Final[Mapping[str, Format]] = {
+    extension: known for known in FORMATS for extension in known.extensions
+}
 
 
 def format_of_path(path: Path | str) -> Format:
@@ -77,12 +113,13 @@ def format_of_path(path: Path | str) -> Format:
     InvalidInputError
         The extension is not known (``/output``).
     """
-    extension = Path(path).suffix.lower()
-    for known in FORMATS:
-        if extension in known.extensions:
+    suffixes = [suffix.lower() for suffix in Path(path).suffixes]
+    for start in range(len(suffixes)):
+        known = _OF_EXTENSION.get("".join(suffixes[start:]))
+        if known is not None:
             return known
-    names = ", ".join(e for known in FORMATS for e in known.extensions)
-    found = f"found the extension {extension!r}" if extension else "found no extension"
+    names = ", ".join(_OF_EXTENSION)
+    found = f"found the extension {suffixes[-1]!r}" if suffixes else "found no extension"
     raise _unknown("/output", f"{found}, expected one of {names}")
 
 

@@ -41,6 +41,7 @@ def metadata(radiograph: Radiograph) -> dict[str, Any]:
     import phantom
 
     document = radiograph.phantom.document
+    anatomy = document.anatomy
     view = radiograph.view
     magnified = radiograph.pitch_at_isocentre_mm
     return {
@@ -50,6 +51,7 @@ def metadata(radiograph: Radiograph) -> dict[str, Any]:
             "title": document.title,
             "document_sha256": document_sha256(document),
             "material_names": list(radiograph.phantom.material_names),
+            "anatomy": None if anatomy is None else anatomy.model_dump(mode="json"),
         },
         "units": UNITS,
         "axes": AXES,

@@ -32,7 +32,7 @@ class Still:
 
 @pytest.mark.parametrize("quantity", ["signal", "transmission", "line_integral", "path_lengths"])
 def test_npy_holds_any_quantity_in_single_precision(quantity: str) -> None:
-    data, media_type = encode(Still(), quantity, format="npy")
+    data, media_type, _ = encode(Still(), quantity, format="npy")
     found = np.load(io.BytesIO(data))
     assert media_type == "application/x-npy"
     assert found.dtype == np.dtype("<f4")
@@ -41,7 +41,7 @@ def test_npy_holds_any_quantity_in_single_precision(quantity: str) -> None:
 
 
 def test_png_holds_what_the_presentation_gives(read_png: Callable[..., Any]) -> None:
-    data, media_type = encode(Still(), "signal", 77)
+    data, media_type, _ = encode(Still(), "signal", 77)
     assert media_type == "image/png"
     assert (read_png(data).pixels == 77).all()
 
@@ -80,7 +80,9 @@ def test_a_saved_file_is_what_was_encoded(tmp_path: Path) -> None:
     assert (tmp_path / "still.npy").read_bytes() == encode(
         Still(), "path_lengths", format="npy"
     ).data
-    assert json.loads((tmp_path / "still.json").read_text()) == Still().metadata()
+    beside = json.loads((tmp_path / "still.json").read_text())
+    assert beside.pop("file") == {"format": "npy", "holds": "numbers", "quantity": "path_lengths"}
+    assert beside == Still().metadata()
     assert sorted(p.name for p in tmp_path.iterdir()) == ["still.json", "still.npy"]
 
 

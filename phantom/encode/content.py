@@ -1,0 +1,99 @@
+"""What goes into a file: the arrays that a format takes from a result, and what is said of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Final
+
+from numpy.typing import NDArray
+from pydantic import BaseModel
+
+from phantom.encode.coding import coding
+from phantom.encode.exr import layer_names
+from phantom.encode.picture import Picture
+
+IMAGES: Final = ("signal", "transmission", "line_integral")
+"""The quantities with one value a pixel, in the order of an OpenEXR's layers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What a writer gets.
+
+    Attributes
+    ----------
+    layers
+        Name to (rows, columns) or (rows, columns, M) array; one for most formats.
+    file
+        What the file holds, as plain JSON values: quantity, coding, names of layers.
+    metadata
+        Of the result. A writer takes from it what its format cannot do without; what it says
+        beside that is :attr:`told`.
+    blind
+        True where the file must not say what it shows.
+    """
+
+    layers: Mapping[str, NDArray[Any]]
+    file: Mapping[str, Any]
+    metadata: Mapping[str, Any]
+    blind: bool
+
+    @property
+    def only(self) -> NDArray[Any]:
+        """The array of a format that has one."""
+        (array,) = self.layers.values()
+        return array
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """What the file says of itself; nothing where it is blind."""
+        return {} if self.blind else {**self.metadata, "file": dict(self.file)}
+
+    @property
+    def beside(self) -> dict[str, Any]:
+        """What a sidecar says; of a blind file only how to read its numbers."""
+        return {"file": dict(self.file)} if self.blind else self.told
+
+
+Taken = tuple[dict[str, NDArray[Any]], dict[str, Any]]
+Take = Callable[[Picture[Any], str, Any], Taken]
+
+
+def grey(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+    """Take the grey levels of a quantity."""
+    levels = picture.presented(quantity, presentation)
+    said: dict[str, Any] = {"holds": "grey levels", "quantity": quantity}
+    said["bits"] = 8 * levels.dtype.itemsize
+    if isinstance(presentation, BaseModel):
+        said["presentation"] = presentation.model_dump(mode="json")
+    return {quantity: levels}, said
+
+
+def numbers(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+    """Take a quantity as it is."""
+    return {quantity: picture.quantity(quantity)}, {"holds": "numbers", "quantity": quantity}
+
+
+def codes(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+    """Take a quantity as codes of 16 bits."""
+    values = picture.quantity(quantity)
+    chosen = coding(quantity, values, picture.metadata().get("units", {}).get(quantity, "1"))
+    return {quantity: chosen.codes(values)}, {"holds": "codes", **chosen.told()}
+
+
+def everything(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+    """Take every quantity: a layer each, and one for the thickness of each material."""
+    layers: dict[str, NDArray[Any]] = {name: picture.quantity(name) for name in IMAGES}
+    thickness = picture.quantity("path_lengths")
+    materials = picture.metadata()["phantom"]["material_names"]
+    thicknesses = layer_names("thickness", materials)
+    for index, name in enumerate(thicknesses):
+        layers[name] = thickness[..., index]
+    of_materials = dict(zip(thicknesses, materials, strict=True))
+    return layers, {"holds": "numbers", "layers": list(layers), "materials": of_materials}
+
+
+def nothing(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+    """Take no pixels."""
+    return {}, {"holds": "metadata"}
