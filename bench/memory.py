@@ -1,0 +1,53 @@
+"""Greatest memory of a whole process that makes one radiograph.
+
+Each is a process of its own, since a process never tells of less than it once had.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from bench.scenes import KNEE_LIKE
+
+WATCH = """
+import json, resource, sys
+sys.argv = json.loads(sys.argv[1])
+from phantom.cli import main
+try:
+    main()
+finally:
+    kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    print(kib if sys.platform != "darwin" else kib // 1024)
+"""
+
+
+def command_line(target, side, *words):
+    """Return seconds and MiB of ``phantom radiograph TARGET``, side x side, start included."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = str(Path(folder) / "image.png")
+        size = ["--columns", str(side), "--rows", str(side)]
+        argv = ["phantom", "radiograph", str(target), "-o", made, *size, *words]
+        start = time.perf_counter()
+        done = subprocess.run(
+            [sys.executable, "-c", WATCH, json.dumps(argv)],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        spent = time.perf_counter() - start
+    return spent, int(done.stdout.split()[-1]) / 1024
+
+
+def knee_like(side):
+    return command_line(KNEE_LIKE, side, "--view", "ap")
+
+
+def help_seconds():
+    """Return the seconds that ``phantom --help`` takes."""
+    start = time.perf_counter()
+    words = "import sys; sys.argv = ['phantom', '--help']; from phantom.cli import main; main()"
+    subprocess.run([sys.executable, "-c", words], check=True, capture_output=True)
+    return time.perf_counter() - start
