@@ -7,46 +7,50 @@ from http import HTTPStatus
 
 from api.problems import RefusedError
 
+Range = tuple[str, frozenset[str]]
+"""A media type in lower case, and its parameters, ``name=value``."""
 
-def _quality(parameters: Sequence[str]) -> float:
-    """Return the weight that a media range has: 1 where it has none, 0 where it is unreadable."""
+
+def _parsed(text: str) -> tuple[Range, float]:
+    """Return a media range and its weight: 1 where it has none, 0 where it is unreadable."""
+    media_type, *parameters = (part.strip().lower() for part in text.split(";"))
+    kept, quality = set(), 1.0
     for parameter in parameters:
-        name, _, value = parameter.partition("=")
-        if name.strip().lower() == "q":
+        name, _, value = (part.strip() for part in parameter.partition("="))
+        if name == "q":
             try:
-                return min(max(float(value), 0.0), 1.0)
+                quality = min(max(float(value), 0.0), 1.0)
             except ValueError:
-                return 0.0
-    return 1.0
+                quality = 0.0
+        elif name:
+            kept.add(f"{name}={value.strip(chr(34))}")
+    return (media_type, frozenset(kept)), quality
 
 
-def _ranges(accept: str) -> list[tuple[str, float]]:
-    found = []
-    for part in accept.split(","):
-        media_range, *parameters = part.split(";")
-        if media_range.strip():
-            found.append((media_range.strip().lower(), _quality(parameters)))
-    return found
-
-
-def _weight(offer: str, ranges: Sequence[tuple[str, float]]) -> float:
+def _weight(offer: str, ranges: Sequence[tuple[Range, float]]) -> float:
     """Return the weight that the most specific matching range gives the offer."""
-    for wanted in (offer, f"{offer.split('/')[0]}/*", "*/*"):
-        matching = [quality for media_range, quality in ranges if media_range == wanted]
-        if matching:
-            return max(matching)
-    return 0.0
+    (media_type, parameters), _ = _parsed(offer)
+    names = (media_type, f"{media_type.split('/')[0]}/*", "*/*")
+    found = [
+        (-names.index(wanted), len(needed), quality)
+        for (wanted, needed), quality in ranges
+        if wanted in names and needed <= parameters
+    ]
+    return max(found)[2] if found else 0.0
 
 
 def negotiate(accept: str | None, offers: Sequence[str]) -> str:
     """Return the media type to answer with; the first offer wins a tie.
+
+    A range without parameters, ``image/tiff``, fits every offer of that type, and one with
+    parameters, ``image/tiff;dtype=float32``, those that have them.
 
     Raises
     ------
     RefusedError
         406, with the offers, where the caller accepts none of them.
     """
-    ranges = _ranges(accept or "*/*")
+    ranges = [_parsed(part) for part in (accept or "*/*").split(",") if part.strip()]
     weights = [_weight(offer, ranges) for offer in offers]
     best = max(weights)
     if best <= 0.0:

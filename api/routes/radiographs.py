@@ -16,13 +16,16 @@ from api.problems import PROBLEMS
 from api.query import DESCRIBED, radiograph_tree
 from api.service import Service
 from phantom import library
-from phantom.encode import FORMATS, encode, format_named
+from phantom.encode import FORMATS, Encoded, encode, format_named
 from phantom.errors import Problem
 from phantom.imaging import Radiograph
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest, plan
 
-OFFERS: Final = (*(format.media_type for format in FORMATS), JSON)
+OFFERS: Final = tuple(format.media_type for format in FORMATS)
 """What an answer may be, the first where the caller does not mind; JSON is all but the pixels."""
+
+CODING: Final = ("quantity", "codes_per_unit", "offset")
+"""What travels in the header ``X-Phantom-Coding`` of numbers that are sent as codes."""
 
 GEOMETRY: Final = (
     "projection_matrix",
@@ -41,7 +44,7 @@ ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
     200: {
         "description": "The picture, its numbers, or what is known of it",
         "content": {
-            **{format.media_type: BINARY for format in FORMATS},
+            **dict.fromkeys(OFFERS, BINARY),
             JSON: {"schema": {"type": "object"}},
         },
     },
@@ -96,8 +99,7 @@ async def _answer(
 
     def look(_: object) -> RadiographPlan:
         planned = plan(tree, known, service.limits)
-        if wanted != JSON:
-            planned.check_format(format_named(wanted))
+        planned.check_format(format_named(wanted))
         return planned
 
     planned = await service.workshop.run(request, look)
@@ -110,12 +112,13 @@ async def _answer(
         if request.method == "HEAD":
             return _HeadResponse(media_type=wanted, headers=headers)
 
-    def make(cancelled: Any) -> tuple[bytes, str]:
+    def make(cancelled: Any) -> tuple[bytes, dict[str, str]]:
         made = planned.render(cancelled=cancelled)
-        return _encoded(made, planned, wanted), _geometry(made)
+        encoded = encode(made, planned.quantity, planned.presentation, wanted, blind=planned.blind)
+        return encoded.data, _told(made, encoded, planned)
 
-    content, headers["X-Phantom-Geometry"] = await service.workshop.run(request, make)
-    return Response(content, media_type=wanted, headers=headers)
+    content, told = await service.workshop.run(request, make)
+    return Response(content, media_type=wanted, headers=headers | told)
 
 
 class _HeadResponse(Response):
@@ -138,12 +141,14 @@ def _has(request: Request, entity_tag: str) -> bool:
     return "*" in tags or entity_tag in tags
 
 
-def _geometry(made: Radiograph) -> str:
-    metadata = made.metadata()
-    return json.dumps({name: metadata[name] for name in GEOMETRY}, separators=(",", ":"))
-
-
-def _encoded(made: Radiograph, planned: RadiographPlan, wanted: str) -> bytes:
-    if wanted == JSON:
-        return json.dumps(made.metadata()).encode()
-    return encode(made, planned.quantity, planned.presentation, wanted).data
+def _told(made: Radiograph, encoded: Encoded, planned: RadiographPlan) -> dict[str, str]:
+    """Return the headers that say what the body cannot."""
+    told = {}
+    file = encoded.beside["file"]
+    if file["holds"] == "codes":
+        told["X-Phantom-Coding"] = json.dumps({name: file[name] for name in CODING})
+    if not planned.blind:
+        metadata = made.metadata()
+        geometry = {name: metadata[name] for name in GEOMETRY}
+        told["X-Phantom-Geometry"] = json.dumps(geometry, separators=(",", ":"))
+    return told

@@ -27,7 +27,12 @@ def make(
     ],
     output: Annotated[
         str | None,
-        typer.Option("-o", "--output", help="Where to; .png or .npy.", metavar="FILE"),
+        typer.Option(
+            "-o",
+            "--output",
+            help="Where to: .png .jpg .tif .f32.tif .exr .npy .u16.npy .dcm .raw.dcm .json",
+            metavar="FILE",
+        ),
     ] = None,
     view: Annotated[
         str | None, _word("Preset, or a source and detector in JSON.", "VIEW", "--view")
@@ -67,11 +72,15 @@ def make(
     sidecar: Annotated[
         bool, typer.Option("--sidecar", help="Write the metadata beside it, as .json.")
     ] = False,
+    blind: Annotated[
+        bool | None,
+        typer.Option("--blind/--no-blind", help="Leave out of the file what it says of itself."),
+    ] = None,
     settings: Settings = None,
     as_json: AsJson = False,
 ) -> None:
     """X-ray a phantom of the library, or a document, and write the picture."""
-    options = {**locals()}
+    options = {**locals(), "blind": None if blind is None else str(blind).lower()}
     with reporting(as_json=as_json):
         from phantom.encode import format_of_path
         from phantom.requests.radiograph import plan
@@ -83,11 +92,11 @@ def make(
         path = Path(output or f"{planned.phantom.document.name}-{pose}.png")
         planned.check_format(format_of_path(path))
         _tell_defaults(planned, given, None if output else path)
-        made = _render(planned, path, sidecar=sidecar)
+        made, beside = _render(planned, path, sidecar=sidecar)
         for warning in made.warnings:
             say(f"warning: {warning}")
         if as_json:
-            answer({"output": str(path), **made.metadata()})
+            answer({"output": str(path), **beside})
 
 
 def _tell_defaults(
@@ -100,17 +109,26 @@ def _tell_defaults(
         say("chosen: " + " ".join(f"{word}={_short(value)}" for word, value in told.items()))
 
 
-def _render(planned: RadiographPlan, path: Path, *, sidecar: bool) -> Radiograph:
-    """Trace the radiograph and write it."""
+def _render(
+    planned: RadiographPlan, path: Path, *, sidecar: bool
+) -> tuple[Radiograph, Mapping[str, Any]]:
+    """Trace the radiograph, write it and return it with what a sidecar says."""
     from phantom.cli.engine import ready
     from phantom.encode import save
 
     ready()
     with Bar("tracing") as bar:
         made = planned.render(progress=bar)
-    save(made, path, planned.quantity, planned.presentation, sidecar=sidecar)
+    saved = save(
+        made,
+        path,
+        planned.quantity,
+        planned.presentation,
+        sidecar=sidecar,
+        blind=planned.blind,
+    )
     say(f"wrote {path}")
-    return made
+    return made, saved.beside
 
 
 def _short(value: object) -> str:

@@ -81,8 +81,8 @@ def save(
     *,
     sidecar: bool = False,
     blind: bool = False,
-) -> None:
-    """Write a result to a file, whole or not at all; the extension says the format.
+) -> Encoded:
+    """Write a result to a file, whole or not at all, and return it; the extension says the format.
 
     With ``sidecar`` its metadata goes to a JSON file of the same name beside it.
 
@@ -96,3 +96,4 @@ def save(
     write_atomically(path, encoded.data)
     if sidecar:
         write_atomically(path.with_suffix(".json"), sidecar_bytes(encoded.beside))
+    return encoded

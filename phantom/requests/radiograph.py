@@ -14,6 +14,7 @@ from pydantic import Field
 
 from phantom import library
 from phantom.document import Model, told
+from phantom.document.base import Boolean
 from phantom.encode import Format
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import (
@@ -49,6 +50,9 @@ class RadiographRequest(Model):
     presentation: Annotated[Presentation, told("Presentation", "none", "How it is shown.")] = Field(
         default_factory=Presentation
     )
+    blind: Annotated[
+        Boolean, told("Blind", "none", "True leaves out of the file what it says of itself.")
+    ] = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,17 +66,19 @@ class RadiographPlan:
     presentation: Presentation
     chosen: dict[str, object]
     """The value of every flat word (`phantom.requests.words`) that has one."""
+    blind: bool = False
 
     def fingerprint(self) -> str:
         """Return a hash of all that the result depends on, the same for equal requests."""
         content = {
             "engine": version("phantom-xray"),
-            "encoder": version("OpenImageIO"),
+            "encoder": [version("OpenImageIO"), version("pydicom")],
             "document": document_sha256(self.phantom.document),
             "view": self.view.model_dump(mode="json"),
             "beam": self.beam.model_dump(mode="json"),
             "quantity": self.quantity,
             "presentation": self.presentation.model_dump(mode="json"),
+            "blind": self.blind,
         }
         canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
         return hashlib.sha256(canonical.encode()).hexdigest()
@@ -137,7 +143,9 @@ def plan(
         "quantity": request.quantity,
         **presentation.model_dump(),
     }
-    return RadiographPlan(phantom, view, beam, request.quantity, presentation, chosen)
+    return RadiographPlan(
+        phantom, view, beam, request.quantity, presentation, chosen, request.blind
+    )
 
 
 def _filled(model: ModelT, **defaults: object) -> ModelT:

@@ -27,6 +27,7 @@ WORDS: Mapping[str, tuple[str, ...]] = {
     "mode": ("presentation", "mode"),
     "polarity": ("presentation", "polarity"),
     "bits": ("presentation", "bits"),
+    "blind": ("blind",),
 }
 """Where each word's value stands in a request."""
 

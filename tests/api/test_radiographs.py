@@ -199,6 +199,14 @@ def test_head_has_the_headers_and_no_body(client):
         ("application/json;q=0.5, application/x-npy", "application/x-npy"),
         ("image/png;q=0, */*", "application/x-npy"),
         ("APPLICATION/JSON", "application/json"),
+        ("image/tiff", "image/tiff"),
+        ("image/tiff; dtype=float32", "image/tiff;dtype=float32"),
+        ("image/tiff, image/tiff;dtype=float32;q=0.5", "image/tiff"),
+        ("image/*;q=0.3, image/x-exr", "image/x-exr"),
+        ("image/jpeg", "image/jpeg"),
+        ('Application/DICOM; intent="processing"', "application/dicom;intent=processing"),
+        ("application/dicom", "application/dicom"),
+        ("application/x-npy;dtype=uint16", "application/x-npy;dtype=uint16"),
     ],
 )
 def test_the_caller_chooses_the_form(client, accept, media_type):
@@ -206,11 +214,41 @@ def test_the_caller_chooses_the_form(client, accept, media_type):
     assert response.headers["content-type"] == media_type
 
 
-@pytest.mark.parametrize("accept", ["image/tiff", "text/*", "image/png;q=0", "image/png;q=x"])
+@pytest.mark.parametrize(
+    "accept", ["image/gif", "image/tiff;dtype=float64", "text/*", "image/png;q=0", "image/png;q=x"]
+)
 def test_a_form_that_is_not_made_is_refused(client, accept):
     response = client.get(ADDRESS, headers={"Accept": accept})
     assert response.status_code == 406
     assert response.headers["content-type"] == "application/problem+json"
+
+
+def test_codes_come_with_what_they_count(client, from_npy):
+    accept = {"Accept": "application/x-npy;dtype=uint16"}
+    response = client.post("/v1/radiographs", json=ball(quantity="line_integral"), headers=accept)
+    coding = json.loads(response.headers["x-phantom-coding"])
+    assert coding == {"quantity": "line_integral", "codes_per_unit": 8192, "offset": 0}
+    codes = from_npy(response.content)
+    assert codes.dtype == np.uint16
+    np.testing.assert_allclose(codes / 8192, 0.03 * chords_mm(), atol=0.5 / 8192 + 1e-9)
+
+
+@pytest.mark.parametrize("accept", ["image/png", "application/dicom", "application/json"])
+def test_a_blind_answer_does_not_say_what_it_shows(client, accept):
+    seen = client.get(ADDRESS, headers={"Accept": accept})
+    blind = client.get(ADDRESS + "&blind=true", headers={"Accept": accept})
+    assert blind.status_code == 200
+    assert blind.headers["etag"] != seen.headers["etag"]
+    document = (
+        seen.headers["x-phantom-geometry"]
+        and client.get(ADDRESS, headers={"Accept": "application/json"}).json()["phantom"][
+            "document_sha256"
+        ]
+    )
+    assert document.encode() in seen.content
+    for word in (document.encode(), b"sphere", b"material_names", b"projection_matrix"):
+        assert word not in blind.content
+    assert "x-phantom-geometry" not in blind.headers
 
 
 def test_an_energy_that_changes_nothing_is_warned_of_only_where_it_was_asked_for(client):

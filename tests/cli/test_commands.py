@@ -137,6 +137,34 @@ def test_json_gives_the_metadata_and_a_sidecar_keeps_it(run, tmp_path: Path):
 
 
 @pytest.mark.parametrize(
+    ("name", "start"),
+    [
+        ("ball.tif", b"II*\0"),
+        ("ball.f32.tiff", b"II*\0"),
+        ("ball.exr", b"v/1\x01"),
+        ("ball.JPG", b"\xff\xd8\xff"),
+        ("ball.u16.npy", b"\x93NUMPY"),
+        ("ball.dcm", b"\0" * 128 + b"DICM"),
+        ("ball.raw.dcm", b"\0" * 128 + b"DICM"),
+        ("ball.json", b"{"),
+    ],
+)
+def test_the_extension_says_the_format(run, tmp_path: Path, name, start):
+    result = run("radiograph", "sphere", "--columns", "8", "-o", str(tmp_path / name))
+    assert result.exit_code == 0
+    assert (tmp_path / name).read_bytes().startswith(start)
+
+
+def test_a_blind_file_and_its_sidecar_do_not_say_what_they_show(run, tmp_path: Path):
+    out = tmp_path / "case-7.png"
+    run("radiograph", "sphere", "--columns", "8", "-o", str(out), "--blind", "--sidecar")
+    kept = out.read_bytes() + (tmp_path / "case-7.json").read_bytes()
+    assert b"sphere" not in kept
+    assert b"material" not in kept
+    assert json.loads((tmp_path / "case-7.json").read_text())["file"]["quantity"] == "signal"
+
+
+@pytest.mark.parametrize(
     ("words", "path"),
     [
         (["-o", "picture.gif"], "/output"),
