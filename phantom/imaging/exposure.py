@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from phantom.imaging.beam import Beam, attenuations_per_mm, depends_on_energy
+from phantom.imaging.beam import Beam, Response, attenuations_per_mm, depends_on_energy
 from phantom.imaging.camera import box_corners, projection
 from phantom.imaging.result import Radiograph, sealed
 from phantom.imaging.truncation import truncated
@@ -22,6 +22,7 @@ def radiograph(
     view: View,
     beam: Beam | None = None,
     *,
+    response: Response = "energy_integrating",
     workers: int | None = None,
     cancelled: Callable[[], bool] | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -32,6 +33,8 @@ def radiograph(
     ----------
     phantom, view, beam
         What, from where, and with what; the default beam has 60 keV.
+    response
+        What a photon adds to the signal: its energy, or one; see `Radiograph`.
     workers
         Threads; the result does not depend on their number.
     cancelled
@@ -48,7 +51,9 @@ def radiograph(
 
     beam = beam if beam is not None else Beam()
     materials = phantom.document.materials
-    attenuation = attenuations_per_mm(materials, beam.energy_kev)
+    spectrum = beam.imaging_spectrum(materials)
+    energies = beam.energy_kev if beam.energy_kev is not None else spectrum.energies_kev
+    attenuation = attenuations_per_mm(materials, energies)
     detector = view.detector
     right, down = detector.axes
     pitch_x, pitch_y = detector.pitch_xy_mm
@@ -70,7 +75,9 @@ def radiograph(
         view=view,
         beam=beam,
         path_lengths=sealed(path_lengths),
+        spectrum=spectrum,
         attenuation_per_mm=sealed(attenuation),
+        response=response,
         truncated=truncated(phantom, view, projection(view)),
         warnings=tuple(_warnings(phantom, view, beam)),
     )
@@ -78,11 +85,14 @@ def radiograph(
 
 def _warnings(phantom: Phantom, view: View, beam: Beam) -> list[str]:
     found = list(phantom.warnings)
-    if "energy_kev" in beam.model_fields_set and not depends_on_energy(phantom.document.materials):
-        found.append(
-            f"the energy of {beam.energy_kev:g} keV has no effect: "
-            "every material has a fixed attenuation"
-        )
+    if not depends_on_energy(phantom.document.materials):
+        asked = {name: getattr(beam, name) for name in ("energy_kev", "kvp")}
+        words = {"energy_kev": "energy of {:g} keV", "kvp": "tube voltage of {:g} kV"}
+        found += [
+            f"the {words[name].format(value)} has no effect: every material has a fixed attenuation"
+            for name, value in asked.items()
+            if value is not None and name in beam.model_fields_set
+        ]
     if view.source is not None:
         bounds = np.asarray(phantom.bounds)
         if np.all((bounds[0] < view.source) & (bounds[1] > view.source)):

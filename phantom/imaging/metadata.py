@@ -56,7 +56,7 @@ def metadata(radiograph: Radiograph) -> dict[str, Any]:
         "units": UNITS,
         "axes": AXES,
         "view": view.model_dump(mode="json"),
-        "beam": radiograph.beam.model_dump(mode="json"),
+        "beam": radiograph.beam.model_dump(mode="json", exclude_none=True),
         "projection_matrix": radiograph.projection_matrix.tolist(),
         "intrinsics": radiograph.intrinsics.tolist(),
         "rotation": radiograph.rotation.tolist(),

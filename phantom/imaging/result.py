@@ -1,7 +1,12 @@
 """One radiograph: path lengths, Beer's law, and what was done to get there.
 
-``path_lengths`` L (mm of each material) → ``line_integral`` Σ μ_m(E) L_m → ``transmission``
-exp(−Σ μ_m L_m) → ``signal``, the transmission of one monochromatic unit of photons.
+One energy: ``path_lengths`` L (mm of each material) → ``line_integral`` Σ μ_m(E) L_m →
+``transmission`` exp(−Σ μ_m L_m) → ``signal``, the transmission of one unit of photons.
+
+A spectrum: ``transmission`` is the signal over that of the open field, Σ_k w_k exp(−Σ_m μ_km L_m)
+over the bins k, each weighted by its photons and by what one of them adds to the signal; the
+weights w add up to 1. ``line_integral`` is −ln(transmission): what a person takes for Σ μ L who has
+only the image. It grows less than in proportion to the path length, which is beam hardening.
 """
 
 from __future__ import annotations
@@ -13,9 +18,12 @@ from typing import TYPE_CHECKING, Any, Final, Literal, get_args
 import numpy as np
 
 from phantom.errors import InvalidInputError, Problem
-from phantom.imaging.beam import Beam
+from phantom.imaging.beam import Beam, Response
+from phantom.imaging.beer import through_spectrum
 from phantom.imaging.camera import Projection, projection
 from phantom.imaging.presentation import GreyArray, Presentation, present
+from phantom.imaging.spectrum import Spectrum
+from phantom.imaging.tube import spectrum_stages
 from phantom.imaging.view import FloatArray, View
 
 if TYPE_CHECKING:
@@ -41,8 +49,13 @@ class Radiograph:
     path_lengths
         (rows, columns, M) mm of each material between source and pixel, in the order of
         ``phantom.material_names``; 0 where a material is missed.
+    spectrum
+        The K photon energies that the image is summed over; one for a beam of one energy.
     attenuation_per_mm
-        (M,) linear attenuation coefficients at the beam's energy.
+        (M,) linear attenuation coefficients for one energy, (K, M) for a spectrum.
+    response
+        What a photon adds to the signal: ``energy_integrating``, its energy; ``photon_counting``,
+        one. It makes no difference to a beam of one energy.
     truncated
         Names of the leaves that are not wholly in the field.
     warnings
@@ -53,13 +66,29 @@ class Radiograph:
     view: View
     beam: Beam
     path_lengths: FloatArray
+    spectrum: Spectrum
     attenuation_per_mm: FloatArray
+    response: Response
     truncated: tuple[str, ...]
     warnings: tuple[str, ...]
 
+    @property
+    def weights(self) -> FloatArray:
+        """(K,) share of each photon energy in the signal of the open field; they add up to 1."""
+        photons = self.spectrum.shares
+        per_photon = self.spectrum.energies_kev if self.response == "energy_integrating" else 1.0
+        counted = photons * per_photon
+        return counted / float(counted.sum())
+
     @cached_property
     def line_integral(self) -> FloatArray:
-        """(rows, columns) Σ μ_m(E) L_m, without unit; 0 where everything is missed."""
+        """(rows, columns) Σ μ_m(E) L_m for one energy, −ln(transmission) for a spectrum.
+
+        Without unit; 0 where everything is missed.
+        """
+        if self.attenuation_per_mm.ndim == 2:
+            with np.errstate(divide="ignore"):  # nothing is left behind too much: infinite
+                return sealed(np.maximum(-np.log(self.transmission), 0.0))
         total = np.zeros(self.path_lengths.shape[:2])
         for index, attenuation in enumerate(self.attenuation_per_mm):
             total += attenuation * self.path_lengths[..., index]
@@ -67,12 +96,17 @@ class Radiograph:
 
     @cached_property
     def transmission(self) -> FloatArray:
-        """(rows, columns) fraction of the photons that reach the pixel, by Beer's law."""
-        return sealed(np.exp(-self.line_integral))
+        """(rows, columns) share of the open field's signal that is left, by Beer's law."""
+        if self.attenuation_per_mm.ndim == 1:
+            return sealed(np.exp(-self.line_integral))
+        weights = self.weights[np.newaxis, :]
+        left = through_spectrum(self.path_lengths, self.attenuation_per_mm, weights)[0]
+        # The weights add up to 1 but for rounding; what nothing is in the way of is 1 exactly.
+        return sealed(np.minimum(left / weights.sum(axis=1), 1.0))
 
     @property
     def signal(self) -> FloatArray:
-        """(rows, columns) what the detector reads; for one unit of photons, the transmission."""
+        """(rows, columns) what the detector reads: 1 in the open field, the transmission."""
         return self.transmission
 
     def quantity(self, name: str) -> FloatArray:
@@ -134,19 +168,30 @@ class Radiograph:
     @property
     def stages(self) -> tuple[dict[str, Any], ...]:
         """Every stage that was applied, in order, with its values."""
-        coefficients = zip(
-            self.phantom.material_names, self.attenuation_per_mm.tolist(), strict=True
-        )
         return (
             {"stage": "path_lengths", "unit": "mm", "beam": _beam_kind(self.view)},
+            *spectrum_stages(self.beam),
             {
                 "stage": "beer_lambert",
-                "energy_kev": self.beam.energy_kev,
-                "attenuation_per_mm": dict(coefficients),
+                **self._coefficients(),
                 "coherent_scattering": "included",
             },
-            {"stage": "signal", "photons": 1.0},
+            {"stage": "signal", "open_field": 1.0, "response": self.response},
         )
+
+    def _coefficients(self) -> dict[str, Any]:
+        """Return the energies and what each material has at them, for `stages`."""
+        energies = self.spectrum.energies_kev.tolist()
+        by_material = dict(
+            zip(self.phantom.material_names, self.attenuation_per_mm.T.tolist(), strict=True)
+        )
+        if self.attenuation_per_mm.ndim == 1:
+            return {"energy_kev": energies[0], "attenuation_per_mm": by_material}
+        return {
+            "energies_kev": energies,
+            "weights": self.weights.tolist(),
+            "attenuation_per_mm": by_material,
+        }
 
     def metadata(self) -> dict[str, Any]:
         """Return what a file should say of this radiograph, as plain JSON values."""

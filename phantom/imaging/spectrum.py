@@ -106,6 +106,39 @@ class Spectrum:
                 photons.append(count * (end - start) / width if inner else count)
         return Spectrum(np.array(middles), np.array(photons), np.array(widths), self.absolute)
 
+    def grouped(self, width_kev: float, edges_kev: FloatArray) -> Spectrum:
+        """Return it with the bins of each cell put together, at their photons' mean energy.
+
+        Cells are ``width_kev`` wide, from 0 on, and are cut at the energies ``edges_kev``. Cells
+        without photons are left out. Photons and energy are kept, and so is whatever varies in a
+        straight line within a cell.
+        """
+        cell = np.floor(self.energies_kev / width_kev).astype(int)
+        side = np.searchsorted(np.sort(edges_kev), self.energies_kev)
+        _, group = np.unique(np.stack([cell, side]), axis=1, return_inverse=True)
+        parts = (
+            self.photons_per_mm2_mas_at_1m,
+            self.photons_per_mm2_mas_at_1m * self.energies_kev,
+            self.widths_kev,
+        )
+        photons, energy, widths = (
+            np.bincount(group.ravel(), part).astype(np.float64) for part in parts
+        )
+        held = photons > 0
+        return Spectrum(
+            energy[held] / photons[held], photons[held], widths[held], absolute=self.absolute
+        )
+
+    def without_traces(self, share: float) -> Spectrum:
+        """Return it without the softest bins that together hold less than this share of photons."""
+        kept = np.cumsum(self.shares) >= share
+        return Spectrum(
+            self.energies_kev[kept],
+            self.photons_per_mm2_mas_at_1m[kept],
+            self.widths_kev[kept],
+            absolute=self.absolute,
+        )
+
     def half_value_layer_mm(self, material: str = "aluminium") -> float:
         """Return the first half-value layer of air kerma, in mm."""
         return self.transmitting_layer_mm(0.5, material)

@@ -62,13 +62,16 @@ def attenuation_curve_per_mm(
         An energy is outside the tables (``/beam/energy_kev``), or a symbol is no known element.
     """
     _check(composition, energies_kev)
-    import xraylib_np
+    import xraylib
 
-    numbers = np.array([ATOMIC_NUMBERS[symbol] for symbol in composition], dtype=np.int_)
-    by_element = xraylib_np.CS_Total(numbers, np.asarray(energies_kev, dtype=np.float64))
-    mass_attenuation_cm2_g = np.zeros(len(energies_kev))
-    for fraction, values in zip(composition.values(), by_element, strict=True):
-        mass_attenuation_cm2_g += fraction * values
+    # One call a value: xraylib_np would start OpenMP threads, which idle by spinning.
+    energies = energies_kev.tolist()
+    mass_attenuation_cm2_g = np.zeros(len(energies))
+    for symbol, fraction in composition.items():
+        number = ATOMIC_NUMBERS[symbol]
+        mass_attenuation_cm2_g += fraction * np.array(
+            [xraylib.CS_Total(number, energy) for energy in energies]
+        )
     return mass_attenuation_cm2_g * density_g_cm3 * _CM_PER_MM
 
 
