@@ -38,7 +38,10 @@ class Technique:
     Attributes
     ----------
     energy_kev
-        Energy of the monochromatic beam.
+        Energy of the monochromatic beam, where there is no ``kvp``.
+    kvp, anode, filtration_mm
+        Tube voltage in kV, anode and filters (material to mm); None for the latter two means what a
+        beam has by default.
     source_detector_mm, object_detector_mm
         Distances from the detector to the source and to the isocentre; None for the latter means
         as near as the phantom lets it.
@@ -50,6 +53,9 @@ class Technique:
     source_detector_mm: float = 1150.0
     object_detector_mm: float | None = None
     polarity: str = "bones_white"
+    kvp: float | None = None
+    anode: str | None = None
+    filtration_mm: Mapping[str, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +76,8 @@ class Entry(Generic[ParametersT]):
         Preset views worth looking at, the best first.
     technique
         The defaults of its radiographs.
+    techniques
+        Those of single preset views, in place of ``technique``.
     """
 
     name: str
@@ -79,6 +87,11 @@ class Entry(Generic[ParametersT]):
     build: Callable[[ParametersT], Document]
     views: tuple[str, ...] = ("ap", "left_lateral")
     technique: Technique = field(default_factory=Technique)
+    techniques: Mapping[str, Technique] = field(default_factory=dict)
+
+    def technique_of(self, view: str | None) -> Technique:
+        """Return the defaults of a preset view; None is a view with a source and a detector."""
+        return self.techniques.get(view, self.technique) if view is not None else self.technique
 
 
 @cache

@@ -60,6 +60,15 @@ def make(
     rows: Annotated[str | None, _word("Pixels in a column.", "N", "--rows")] = None,
     pitch_mm: Annotated[str | None, _word("Distance of pixel centres.", "MM", "--pitch-mm")] = None,
     energy_kev: Annotated[str | None, _word("Photon energy.", "KEV", "--energy-kev")] = None,
+    kvp: Annotated[
+        str | None, _word("Tube voltage, in place of the photon energy.", "KV", "--kvp")
+    ] = None,
+    anode: Annotated[
+        str | None, _word("Of the tube.", "tungsten|molybdenum|rhodium", "--anode")
+    ] = None,
+    filtration: Annotated[
+        str | None, _word("Filters of the tube.", "MATERIAL=MM,…|none", "--filtration")
+    ] = None,
     quantity: Annotated[
         str | None,
         _word("signal, transmission, line_integral or path_lengths.", "NAME", "--quantity"),

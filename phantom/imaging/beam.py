@@ -129,18 +129,20 @@ class Beam(Asked):
             refuse(
                 "no_effect", *(((name,), f"found {name} without kvp; {expected}") for name in idle)
             )
-        # Straight into the fields, so that `model_fields_set` keeps to what was said.
         if self.kvp is None:
-            if self.energy_kev is None:
-                self.__dict__["energy_kev"] = ENERGY_KEV
-            return self
-        anode = self.anode or "tungsten"
-        filtration = self.filtration_mm
-        self.__dict__["anode"] = anode
-        self.__dict__["filtration_mm"] = dict(
-            DEFAULT_FILTRATION_MM[anode] if filtration is None else filtration
-        )
+            self._fill(energy_kev=ENERGY_KEV)
+        else:
+            self._fill(anode="tungsten")
+            assert self.anode is not None
+            self._fill(filtration_mm=dict(DEFAULT_FILTRATION_MM[self.anode]))
         return self
+
+    def _fill(self, **values: object) -> None:
+        """Put in what was left out, or null, and do not count it among what was said."""
+        for name, value in values.items():
+            if getattr(self, name) is None:
+                self.__dict__[name] = value
+                self.__pydantic_fields_set__.discard(name)
 
     def spectrum(self, cut_at_kev: FloatArray | None = None) -> Spectrum:
         """Return the photons that leave the tube's last filter, or the one energy.

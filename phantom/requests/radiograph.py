@@ -7,7 +7,7 @@ import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import Annotated, Literal, TypeVar, cast
+from typing import Annotated, Any, Literal, TypeVar, cast
 
 import numpy as np
 from pydantic import Field
@@ -124,7 +124,8 @@ def plan(
     technique, recommended = library.Technique(), "ap"
     if isinstance(request.phantom, LibraryPhantom):
         entry = library.entry(request.phantom.name)
-        technique, recommended = entry.technique, entry.views[0]
+        recommended = entry.views[0]
+        technique = entry.technique_of(_preset(request.view, recommended))
     grid = request.detector
     # A detector is square where only its columns are given.
     if "rows" not in grid.model_fields_set:
@@ -132,14 +133,14 @@ def plan(
     (limits or Limits()).check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
-    beam = _filled(request.beam, energy_kev=technique.energy_kev)
+    beam = _beam(request.beam, technique)
     presentation = _filled(request.presentation, polarity=technique.polarity)
     chosen = {
         **_placing(phantom, request.view, view, recommended),
         "columns": detector.columns,
         "rows": detector.rows,
         "pitch_mm": detector.pitch_mm,
-        **beam.model_dump(),
+        **_beam_words(beam),
         "quantity": request.quantity,
         **presentation.model_dump(),
     }
@@ -155,17 +156,51 @@ def _filled(model: ModelT, **defaults: object) -> ModelT:
     return cast("ModelT", model.model_construct(_fields_set=model.model_fields_set, **content))
 
 
+def _beam(asked: Beam, technique: library.Technique) -> Beam:
+    """Return the beam with what the request left out as the technique has it.
+
+    What is said of the tube is kept; a voltage alone keeps the technique's anode and filters.
+    """
+    said: dict[str, Any] = {name: getattr(asked, name) for name in asked.model_fields_set}
+    if said.get("energy_kev") is not None:
+        return asked
+    usual: dict[str, Any]
+    if technique.kvp is None and said.get("kvp") is None:
+        usual = {"energy_kev": technique.energy_kev}
+    else:
+        usual = {"kvp": technique.kvp, "anode": technique.anode}
+        # Filters belong to their anode.
+        if said.get("anode") in (None, technique.anode) and technique.filtration_mm is not None:
+            usual["filtration_mm"] = dict(technique.filtration_mm)
+    spoken = {name: value for name, value in said.items() if value is not None}
+    return _filled(asked, **Beam(**{**usual, **spoken}).model_dump())
+
+
+def _beam_words(beam: Beam) -> dict[str, object]:
+    """Return the words of a beam; filters as a query string would have them."""
+    if beam.kvp is None:
+        return {"energy_kev": beam.energy_kev}
+    filters = ",".join(f"{name}={mm:g}" for name, mm in (beam.filtration_mm or {}).items())
+    return {"kvp": beam.kvp, "anode": beam.anode, "filtration": filters or "none"}
+
+
+def _preset(wanted: PresetView | PlacedView, recommended: str) -> str | None:
+    """Return the clinical word of a view; None for one with a source and a detector."""
+    if isinstance(wanted, PlacedView):
+        return None
+    return wanted.preset if "preset" in wanted.model_fields_set else recommended
+
+
 def _placing(
     phantom: Phantom, wanted: PresetView | PlacedView, view: View, recommended: str
 ) -> dict[str, object]:
     """Return the words of a preset as it came out; a view in full has none."""
     if isinstance(wanted, PlacedView):
         return {}
-    preset = wanted.preset if "preset" in wanted.model_fields_set else recommended
     aim = phantom.isocentre if wanted.isocentre is None else wanted.isocentre
     center = view.detector.center
     return {
-        "view": preset,
+        "view": _preset(wanted, recommended),
         "source_detector_mm": _distance_mm(center, view.source or center),
         "object_detector_mm": _distance_mm(center, aim),
     }

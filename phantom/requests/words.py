@@ -23,6 +23,9 @@ WORDS: Mapping[str, tuple[str, ...]] = {
     "rows": ("detector", "rows"),
     "pitch_mm": ("detector", "pitch_mm"),
     "energy_kev": ("beam", "energy_kev"),
+    "kvp": ("beam", "kvp"),
+    "anode": ("beam", "anode"),
+    "filtration": ("beam", "filtration_mm"),
     "quantity": ("quantity",),
     "mode": ("presentation", "mode"),
     "polarity": ("presentation", "polarity"),
@@ -66,7 +69,8 @@ def request_tree(
     """Return the request that the words ask for, as it would stand in JSON, and what is wrong.
 
     A ``view`` that is a JSON object is taken as it is, so that an explicit source and detector can
-    be given too. Words that are not known, or given twice, are problems.
+    be given too; ``filtration`` is a JSON object, MATERIAL=MM with commas between, or ``none``.
+    Words that are not known, or given twice, are problems.
     """
     tree: dict[str, object] = {"phantom": dict(phantom)}
     problems: list[Problem] = []
@@ -79,10 +83,33 @@ def request_tree(
             problems.append(
                 Problem(pointer(WORDS[word]), "given_twice", "found it twice; expected once")
             )
+        elif word == "filtration":
+            filters, wrong = _filters(text)
+            _place(tree, word, filters)
+            problems += wrong
         else:
             _place(tree, word, scalar(text))
         seen.add(word)
     return tree, tuple(problems)
+
+
+def _filters(text: str) -> tuple[object, tuple[Problem, ...]]:
+    """Return the filters in a text, material to mm, and what is wrong with it."""
+    if text.strip()[:1] == "{":
+        return scalar(text), ()
+    if text.strip() == "none":
+        return {}, ()
+    found: dict[str, object] = {}
+    for part in text.split(","):
+        name, equals, thickness = (piece.strip() for piece in part.partition("="))
+        if not (name and equals):
+            message = f"found {part[:60]!r}; expected MATERIAL=MM, as in aluminium=2.5"
+            return {}, (Problem("/beam/filtration_mm", "not_a_pair", message),)
+        if name in found:
+            path = pointer(("beam", "filtration_mm", name))
+            return {}, (Problem(path, "given_twice", "found it twice; expected once"),)
+        found[name] = scalar(thickness)
+    return found, ()
 
 
 def _place(tree: dict[str, object], word: str, value: object) -> None:
