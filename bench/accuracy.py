@@ -18,18 +18,24 @@ SAMPLES = 700
 def implied_displacement_mm(tree, view, path_lengths, count, rng):
     """Return the greatest err * c / 4R over ``count`` random pixels that meet something.
 
-    R is the reach of the scene. A surface that is displaced by e moves a chord c by about 4Re/c.
+    R is the reach of the scene, c the shortest step of the ray from one surface to the next: a
+    surface that is displaced by e moves the ends of a chord, or gap, of length c by about 4Re/c.
     """
     hit = np.flatnonzero(path_lengths.reshape(-1, path_lengths.shape[-1]).any(axis=1))
     chosen = np.sort(rng.choice(hit, count, replace=False))
     origins, directions = (a[chosen] for a in rays(view))
     far = np.linalg.norm(np.asarray(view.source))
     span = (far - 1.5 * REACH_MM, far + 1.5 * REACH_MM)
-    truth = Twin(tree).path_lengths(origins, directions, span, SAMPLES)
-    found = path_lengths.reshape(len(path_lengths) ** 2, -1)[chosen]
-    chord = np.maximum(np.minimum(found, truth), np.sqrt(8 * REACH_MM * SURFACE_MM))
-    implied = np.abs(found - truth) * np.minimum(chord / (4 * REACH_MM), 1.0)
-    return float(implied.max())
+    twin = Twin(tree)
+    found = path_lengths.reshape(-1, path_lengths.shape[-1])[chosen]
+    worst = 0.0
+    for mine, steps in zip(found, twin.chords(origins, directions, span, SAMPLES), strict=True):
+        truth = sum((exit_ - entry) * (left @ twin.channel) for entry, exit_, left in steps)
+        ends = np.unique([w for entry, exit_, _ in steps for w in (entry, exit_)])
+        shortest = np.diff(ends)[np.diff(ends) > 1e-9].min(initial=4 * REACH_MM)
+        chord = max(shortest, np.sqrt(8 * REACH_MM * SURFACE_MM))
+        worst = max(worst, np.abs(mine - truth).max() * min(chord / (4 * REACH_MM), 1.0))
+    return float(worst)
 
 
 def chord_errors_mm(image, exact):
