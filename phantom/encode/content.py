@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from numpy.typing import NDArray
 from pydantic import BaseModel
@@ -56,44 +56,72 @@ class Content:
         return {"file": dict(self.file)} if self.blind else self.told
 
 
+class Wanted(NamedTuple):
+    """What is asked of a result.
+
+    Attributes
+    ----------
+    quantity
+        Its name.
+    presentation
+        How it becomes grey levels.
+    blind
+        True where the file must not say what it shows.
+    """
+
+    quantity: str
+    presentation: Any
+    blind: bool
+
+
 Taken = tuple[dict[str, NDArray[Any]], dict[str, Any]]
-Take = Callable[[Picture[Any], str, Any], Taken]
+"""Layers by name, and what is said of them."""
+
+Take = Callable[[Picture[Any], Wanted], Taken]
 
 
-def grey(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+def grey(picture: Picture[Any], wanted: Wanted) -> Taken:
     """Take the grey levels of a quantity."""
-    levels = picture.presented(quantity, presentation)
-    said: dict[str, Any] = {"holds": "grey levels", "quantity": quantity}
+    levels = picture.presented(wanted.quantity, wanted.presentation)
+    said: dict[str, Any] = {"holds": "grey levels", "quantity": wanted.quantity}
     said["bits"] = 8 * levels.dtype.itemsize
-    if isinstance(presentation, BaseModel):
-        said["presentation"] = presentation.model_dump(mode="json")
-    return {quantity: levels}, said
+    if isinstance(wanted.presentation, BaseModel):
+        said["presentation"] = wanted.presentation.model_dump(mode="json")
+    return {wanted.quantity: levels}, said
 
 
-def numbers(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+def numbers(picture: Picture[Any], wanted: Wanted) -> Taken:
     """Take a quantity as it is."""
+    quantity = wanted.quantity
     return {quantity: picture.quantity(quantity)}, {"holds": "numbers", "quantity": quantity}
 
 
-def codes(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+def codes(picture: Picture[Any], wanted: Wanted) -> Taken:
     """Take a quantity as codes of 16 bits."""
-    values = picture.quantity(quantity)
-    chosen = coding(quantity, values, picture.metadata().get("units", {}).get(quantity, "1"))
-    return {quantity: chosen.codes(values)}, {"holds": "codes", **chosen.told()}
+    values = picture.quantity(wanted.quantity)
+    unit = picture.metadata().get("units", {}).get(wanted.quantity, "1")
+    chosen = coding(wanted.quantity, values, unit)
+    return {wanted.quantity: chosen.codes(values)}, {"holds": "codes", **chosen.told()}
 
 
-def everything(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
-    """Take every quantity: a layer each, and one for the thickness of each material."""
+def everything(picture: Picture[Any], wanted: Wanted) -> Taken:
+    """Take every quantity: a layer each, and one for the thickness of each material.
+
+    Materials tell what there is to find; so a blind file has none of their layers.
+    """
     layers: dict[str, NDArray[Any]] = {name: picture.quantity(name) for name in IMAGES}
+    said: dict[str, Any] = {"holds": "numbers", "layers": list(layers)}
+    if wanted.blind:
+        return layers, said
     thickness = picture.quantity("path_lengths")
     materials = picture.metadata()["phantom"]["material_names"]
     thicknesses = layer_names("thickness", materials)
     for index, name in enumerate(thicknesses):
         layers[name] = thickness[..., index]
     of_materials = dict(zip(thicknesses, materials, strict=True))
-    return layers, {"holds": "numbers", "layers": list(layers), "materials": of_materials}
+    return layers, {**said, "layers": list(layers), "materials": of_materials}
 
 
-def nothing(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
+def nothing(picture: Picture[Any], wanted: Wanted) -> Taken:
     """Take no pixels."""
     return {}, {"holds": "metadata"}

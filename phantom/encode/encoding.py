@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from phantom.encode.content import Content
+from phantom.encode.content import Content, Wanted
 from phantom.encode.files import write_atomically
 from phantom.encode.formats import FORMATS, Format, format_named, format_of_path
 from phantom.encode.picture import Picture
@@ -55,8 +55,9 @@ def encode(
     format
         A :class:`Format`, its name or its media type.
     blind
-        Leave out what the file says of itself, so that a reader learns nothing from it. What a
-        format cannot do without stays: pitch, orientation and body part of a DICOM file.
+        Leave out what the file says of itself, and an OpenEXR's layers of materials, so that a
+        reader learns nothing but what the picture shows. What a DICOM file cannot do without stays:
+        pitch, orientation, body part and view.
 
     Raises
     ------
@@ -68,7 +69,7 @@ def encode(
         held = ", ".join(chosen.quantities)
         message = f"found {quantity!r}, but {chosen.name} holds one of {held}"
         raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
-    layers, file = chosen.take(picture, quantity, presentation)
+    layers, file = chosen.take(picture, Wanted(quantity, presentation, blind))
     content = Content(layers, {"format": chosen.name, **file}, picture.metadata(), blind)
     return Encoded(chosen.write(content), chosen.media_type, content.beside)
 

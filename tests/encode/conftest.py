@@ -1,15 +1,87 @@
-"""A PNG reader of its own: the standard library's zlib and the rules of the PNG specification."""
+"""A result to be written, and a PNG reader of its own: the standard library's zlib and the rules of
+the PNG specification."""
 
 from __future__ import annotations
 
 import struct
 import zlib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+
+NAMES = ("bone, cortical", "Knochen-α")
+SOURCE = [0.0, -1000.0, 0.0]
+
+
+@dataclass
+class Shot:
+    """A picture of made-up numbers, (rows, columns) = (21, 34), with a known pose."""
+
+    region: str | None = "knee"
+    laterality: str | None = "left"
+    view: dict[str, Any] = field(
+        default_factory=lambda: {
+            "source": SOURCE,
+            "direction": None,
+            "detector": {
+                "center": [0.0, 150.0, 0.0],
+                "right": [1.0, 0.0, 0.0],
+                "down": [0.0, 0.0, -1.0],
+                "columns": 34,
+                "rows": 21,
+                "pitch_mm": [0.2, 0.3],
+            },
+        }
+    )
+    beam: dict[str, Any] = field(default_factory=lambda: {"energy_kev": 60.0})
+    seed: int = 5
+    thickness: NDArray[np.float64] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.thickness = np.random.default_rng(self.seed).uniform(0, 90, (21, 34, 2))
+
+    def quantity(self, name: str) -> Any:
+        line_integral = self.thickness @ [0.05, 0.02]
+        return {
+            "path_lengths": self.thickness,
+            "line_integral": line_integral,
+            "transmission": np.exp(-line_integral),
+            "signal": np.exp(-line_integral) * 0.9,
+        }[name]
+
+    def presented(self, name: str, presentation: int | None) -> Any:
+        """Stretch, to 8 bits or as many as asked; bones are white, or dark for negative bits."""
+        bits = presentation or 8
+        values = self.quantity(name) * (1 if (name == "line_integral") == (bits > 0) else -1)
+        levels = (values - values.min()) / (values.max() - values.min()) * (2 ** abs(bits) - 1)
+        return np.rint(levels).astype(np.uint8 if abs(bits) == 8 else np.uint16)
+
+    def metadata(self) -> dict[str, Any]:
+        return {
+            "software": {"name": "phantom-xray", "version": "1.2.3"},
+            "phantom": {
+                "name": "genou-α",
+                "title": "",
+                "document_sha256": "5ec2e7" * 10,
+                "material_names": list(NAMES),
+                "anatomy": {"region": self.region, "laterality": self.laterality, "codes": {}},
+            },
+            "units": {"line_integral": "1", "transmission": "1", "signal": "1"},
+            "view": self.view,
+            "beam": self.beam,
+            "pitch_mm": self.view["detector"]["pitch_mm"],
+            "magnification": 1.15,
+            "seed": 77_001,
+        }
+
+
+@pytest.fixture
+def shot() -> type[Shot]:
+    return Shot
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from phantom.encode.content import Take, Taken
+    from phantom.encode.content import Take, Taken, Wanted
     from phantom.encode.picture import Picture
 
 SAMPLES_A_SIDE: Final = 256
@@ -46,9 +46,9 @@ def intensity(pixels: NDArray[Any], transmission: NDArray[Any]) -> Intensity:
 def judged(take: Take) -> Take:
     """Return the taking with the intensity of what it took said as ``intensity``."""
 
-    def taken(picture: Picture[Any], quantity: str, presentation: Any) -> Taken:
-        layers, file = take(picture, quantity, presentation)
-        found = intensity(layers[quantity], picture.quantity("transmission"))
+    def taken(picture: Picture[Any], wanted: Wanted) -> Taken:
+        layers, file = take(picture, wanted)
+        found = intensity(layers[wanted.quantity], picture.quantity("transmission"))
         return layers, {**file, "intensity": list(found)}
 
     return taken

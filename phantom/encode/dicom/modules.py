@@ -61,7 +61,7 @@ def patient(dataset: Dataset, who: Identity, name: str) -> None:
         dataset.StudyDescription = _short(name)
 
 
-def series(dataset: Dataset, who: Identity, facts: Facts, *, presented: bool) -> None:
+def series(dataset: Dataset, who: Identity, facts: Facts, *, presented: bool, blind: bool) -> None:
     """Say what kind of images these are, and what made them: General, DX and Mammography Series."""
     dataset.Modality = "MG" if facts.is_mammogram else "DX"
     dataset.SeriesInstanceUID = who.series_uid
@@ -69,7 +69,8 @@ def series(dataset: Dataset, who: Identity, facts: Facts, *, presented: bool) ->
     dataset.PresentationIntentType = "FOR PRESENTATION" if presented else "FOR PROCESSING"
     dataset.Manufacturer = facts.software
     dataset.ManufacturerModelName = facts.software
-    dataset.SoftwareVersions = facts.version
+    if not blind:
+        dataset.SoftwareVersions = facts.version
 
 
 def image(

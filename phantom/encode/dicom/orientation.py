@@ -28,7 +28,8 @@ def patient_orientation(facts: Facts) -> list[str]:
 
 
 def _toward(direction: Vector) -> str:
-    order = sorted(range(3), key=lambda axis: -abs(direction[axis]))
+    # The largest first; of equal ones, head or feet.
+    order = sorted((2, 1, 0), key=lambda axis: -round(abs(direction[axis]), 6))
     kept = [axis for axis in order if abs(direction[axis]) > LEAST_COMPONENT]
     return "".join(_LETTERS[axis][direction[axis] > 0] for axis in kept)
 

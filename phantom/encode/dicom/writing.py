@@ -45,7 +45,7 @@ def _written(content: Content, *, presented: bool) -> bytes:
     dataset.file_meta = meta
     modules.common(dataset, who, sop_class)
     modules.patient(dataset, who, "" if content.blind else known.name)
-    modules.series(dataset, who, known, presented=presented)
+    modules.series(dataset, who, known, presented=presented, blind=content.blind)
     modules.image(dataset, pixels, content, known, Intensity(*content.file["intensity"]))
     modules.detector(dataset, known)
     modules.anatomy(dataset, known)
