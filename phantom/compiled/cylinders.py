@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom import document as doc
-from phantom.compiled.changing import ChangingSection, ChangingTable, changing_tables
+from phantom.compiled.changing import ChangingSection, changing_tables
 from phantom.compiled.hessians import Bounds, hessian_bounds
-from phantom.compiled.overlap import Traced, check_global_overlap
+from phantom.compiled.meeting import Table, Traced
+from phantom.compiled.overlap import check_global_overlap
 from phantom.compiled.sections import CircleSection, StarSection
 from phantom.compiled.segments import Segments, segments
-from phantom.compiled.tables import StarTable, star_table
+from phantom.compiled.tables import star_table
 from phantom.errors import Problem
 from phantom.geometry import tolerances
 from phantom.geometry.closing import check_closing
@@ -24,8 +25,6 @@ from phantom.geometry.swept import ChangingShape, Shape, swept_shapes
 from phantom.geometry.transforms import Similarity
 
 Floats = NDArray[np.float64]
-
-Table = StarTable | ChangingTable | None
 
 
 @dataclass(frozen=True)

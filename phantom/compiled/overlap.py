@@ -12,35 +12,22 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from phantom.compiled.changing import ChangingTable
-from phantom.compiled.segments import Segments
-from phantom.compiled.tables import StarTable
+from phantom.compiled.meeting import Table, Traced, meeting_pairs
 from phantom.geometry import tolerances
-from phantom.geometry.polynomials import derivative, evaluate
+from phantom.geometry.polynomials import derivative, evaluate, powers
 from phantom.geometry.refusal import RefusalError
 from phantom.geometry.star import chart_rays, pseudo_angle
-from phantom.geometry.swept import Shape
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
-Table = StarTable | ChangingTable | None
 
 _ALONG, _ROUND, _RINGS, _STARTS = 7, 32, 4, 6
 _CLIMBS = 80
 _MOVES = np.array(
     [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [1, -1], [-1, 1], [-1, -1]], dtype=np.float64
 )
-
-
-@dataclass(frozen=True)
-class Traced:
-    """One part of a cylinder as it is traced."""
-
-    shape: Shape
-    segments: Segments
-    tables: tuple[Table, ...]
 
 
 def check_global_overlap(parts: list[Traced]) -> None:
@@ -51,15 +38,14 @@ def check_global_overlap(parts: list[Traced]) -> None:
     RefusalError
         At the leaf itself, with both u and the depth.
     """
-    where = [(p, k) for p, part in enumerate(parts) for k in range(len(part.segments.origins))]
-    groups: dict[tuple[int, int], list[tuple[int, int]]] = {}
-    for one, two in _near(parts, where):
-        for (p, k), (q, m) in ((one, two), (two, one)):
-            groups.setdefault((p, q), []).append((k, m))
-    for (p, q), pairs in groups.items():
+    one, two = meeting_pairs(parts)
+    one, two = np.concatenate([one, two]), np.concatenate([two, one])
+    for p, q in np.unique(np.stack([one[:, 0], two[:, 0]], axis=-1), axis=0):
+        rows = (one[:, 0] == p) & (two[:, 0] == q)
+        pairs = np.stack([one[rows, 1], two[rows, 1]], axis=-1)
         climber = _Climber(parts[p], parts[q])
         for sheet in ("side", "start", "end"):
-            depth, u, other = climber.deepest(sheet, np.array(pairs, dtype=np.intp))
+            depth, u, other = climber.deepest(sheet, pairs)
             if depth > tolerances.OVERLAP_MM:
                 raise RefusalError(
                     "",
@@ -67,85 +53,6 @@ def check_global_overlap(parts: list[Traced]) -> None:
                     f"the solid runs into itself: its surface at u = {u:.6g} lies {depth:.3g} mm "
                     f"inside it at u = {other:.6g}; expected at most {tolerances.OVERLAP_MM:g} mm",
                 )
-
-
-def _near(
-    parts: list[Traced], where: list[tuple[int, int]]
-) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    """Pairs of segments that lie apart along u and whose boxes meet."""
-    cut = [(parts[p].segments, k) for p, k in where]
-    axes = np.array([s.axes[k] for s, k in cut])
-    boxes = np.array([s.boxes[k] for s, k in cut])
-    middle = np.array([s.origins[k] for s, k in cut])
-    middle = middle + np.einsum("nai,na->ni", axes, boxes.mean(axis=2))
-    half = 0.5 * np.ptp(boxes, axis=2)
-    radius = np.linalg.norm(half, axis=1)
-    pairs = KDTree(middle).query_pairs(2 * float(radius.max()), output_type="ndarray")
-    i, j = pairs[:, 0], pairs[:, 1]
-    low = np.array([s.knots[k] for s, k in cut])
-    high = np.array([s.knots[k + 1] for s, k in cut])
-    span = high.max() - low.min()
-    apart = (low[j] > high[i] + 1e-12 * span) | (low[i] > high[j] + 1e-12 * span)
-    if parts[0].shape.curve.closed:
-        around = (low[i] - low.min() + high.max() - high[j] <= 1e-12 * span) | (
-            low[j] - low.min() + high.max() - high[i] <= 1e-12 * span
-        )
-        apart &= ~around
-    apart &= np.linalg.norm(middle[i] - middle[j], axis=1) <= radius[i] + radius[j]
-    i, j = i[apart], j[apart]
-    met = _boxes_meet(axes[i], half[i], axes[j], half[j], middle[j] - middle[i])
-    i, j = i[met], j[met]
-    divided = _divided(parts, where, i, j) | _divided(parts, where, j, i)
-    return [(where[a], where[b]) for a, b in zip(i[~divided], j[~divided], strict=True)]
-
-
-def _divided(
-    parts: list[Traced], where: list[tuple[int, int]], i: Ints, j: Ints
-) -> NDArray[np.bool_]:
-    """Say which pairs an end plane of segment i divides: its own body lies on the inner side.
-
-    Most segments that follow each other round a bend are told apart so.
-    """
-    found = np.zeros(len(i), dtype=bool)
-    samples: dict[int, Floats] = {}
-    for row, (a, b) in enumerate(zip(i, j, strict=True)):
-        if b not in samples:
-            samples[b] = _surface(parts[where[b][0]], where[b][1])
-        cut, k = parts[where[a][0]].segments, where[a][1]
-        heights = samples[b] @ cut.planes[[k, k + 1], :3].T - cut.planes[[k, k + 1], 3]
-        # What the surface may bulge beyond its samples.
-        slack = 0.01 * float(np.ptp(heights, axis=0).max())
-        found[row] = heights[:, 0].max() < -slack or heights[:, 1].min() > slack
-    return found
-
-
-def _surface(traced: Traced, k: int) -> Floats:
-    """Points of the surface of a segment, ``(P, 3)``."""
-    u = np.linspace(traced.segments.knots[k], traced.segments.knots[k + 1], 5)
-    piece = np.repeat(traced.shape.pieces(traced.segments.knots[[k, k + 1]]), 5)
-    placed = traced.shape.sections(u, piece)
-    phi = traced.shape.points(u, 48)
-    phi = np.broadcast_to(phi, (5, *phi.shape[1:]))
-    return np.asarray(
-        (placed.middle[:, None] + np.einsum("nij,nvj->nvi", placed.spread, phi)).reshape(-1, 3)
-    )
-
-
-def _boxes_meet(
-    axes_i: Floats, half_i: Floats, axes_j: Floats, half_j: Floats, between: Floats
-) -> NDArray[np.bool_]:
-    """Separating axes of two boxes: their faces, then the products of their edges."""
-    met = np.ones(len(between), dtype=bool)
-    products = np.cross(axes_i[:, :, None], axes_j[:, None, :]).reshape(len(between), 9, 3)
-    for directions in (axes_i, axes_j, products):
-        reach = np.zeros(directions.shape[:2])
-        for axes, half in ((axes_i, half_i), (axes_j, half_j)):
-            reach = reach + np.einsum(
-                "na,nka->nk", half, np.abs(np.einsum("nkx,nax->nka", directions, axes))
-            )
-        distance = np.abs(np.einsum("nkx,nx->nk", directions, between))
-        met &= (distance <= reach + 1e-9).all(axis=1)
-    return met
 
 
 @dataclass(frozen=True)
@@ -215,25 +122,21 @@ class _Climber:
 
     def _depths(self, sheet: str, pairs: Ints, at: Floats) -> tuple[Floats, Floats, Floats]:
         """Depth of surface points of one in two, mm, and both u."""
-        knots = self.one.segments.knots
-        start, end = knots[pairs[:, 0]], knots[pairs[:, 0] + 1]
+        knots, segment = self.one.segments.knots, pairs[:, 0]
+        start, end = knots[segment], knots[segment + 1]
         if sheet == "side":
-            u, scale = start + at[:, 0] * (end - start), np.ones(len(at))
+            share, scale = at[:, 0], np.ones(len(at))
         else:
-            u, scale = (start if sheet == "start" else end), at[:, 0]
-        piece = self.one.shape.pieces(knots)[pairs[:, 0]]
-        placed = self.one.shape.sections(u, piece)
-        phi = scale[:, None] * _contour(self.one.shape, 8.0 * np.mod(at[:, 1], 1.0), u)
+            share, scale = np.full(len(at), 0.0 if sheet == "start" else 1.0), at[:, 0]
+        u = start + share * (end - start)
+        placed = self.one.shape.sections(u, self.one.shape.pieces(knots)[segment])
+        # The contour as it is traced: on the ray of a pseudo-angle, where the gauge is 1.
+        rays = chart_rays(8.0 * np.mod(at[:, 1], 1.0))
+        gauge = _gauge(self.one.tables, segment, rays, 2.0 * share - 1.0)
+        phi = (scale / np.sqrt(gauge))[:, None] * rays
         x = placed.middle + np.einsum("nij,nj->ni", placed.spread, phi)
         depth, other = _inside(self.two, pairs[:, 1], x)
         return depth, u, other
-
-
-def _contour(shape: Shape, T: Floats, u: Floats) -> Floats:
-    """Points of the contour in unit coordinates, each at its own pseudo-angle and u."""
-    rays = chart_rays(T)
-    size = shape.unit_radii(T, u) / np.linalg.norm(rays, axis=1)
-    return np.asarray(rays * size[:, None])
 
 
 def _inside(traced: Traced, m: Ints, points: Floats) -> tuple[Floats, Floats]:
@@ -243,26 +146,24 @@ def _inside(traced: Traced, m: Ints, points: Floats) -> tuple[Floats, Floats]:
     by the tolerance only, so that nothing outside counts as inside.
     """
     cut = traced.segments
-    x = points - cut.origins[m]
-    polynomials = cut.polynomials[m]
-    slopes = derivative(polynomials)
+    x = np.column_stack([points - cut.origins[m], np.full(len(points), -1.0)])
+    polynomials = cut.polynomials
+    # Rows of x each: F, its rate, and the two of phi, as polynomials of tau.
+    f = np.einsum("nip,ni->np", polynomials[m, :4], x)
+    rate = derivative(f)
     tau = np.zeros(len(x))
-
-    def row(p: Floats, index: int) -> Floats:
-        parts = [evaluate(p[:, index + i], tau) for i in range(4)]
-        return np.asarray(x[:, 0] * parts[0] + x[:, 1] * parts[1] + x[:, 2] * parts[2] - parts[3])
-
     for _ in range(8):
-        rate = row(slopes, 0)
-        step = np.where(rate < 0, -row(polynomials, 0) / np.where(rate < 0, rate, -1.0), 0.0)
+        slope = evaluate(rate, tau)
+        step = np.where(slope < 0, -evaluate(f, tau) / np.where(slope < 0, slope, -1.0), 0.0)
         tau = np.clip(tau + step, -1.0, 1.0)
         if np.abs(step).max() < 1e-12:
             break
-    phi = np.stack([row(polynomials, 4), row(polynomials, 8)], axis=-1)
+    rows = np.einsum("nrp,pn->nr", polynomials[m, 4:], powers(tau, polynomials.shape[-1]))
+    phi = np.einsum("nri,ni->nr", rows.reshape(-1, 2, 4), x)
     gauge = np.sqrt(np.maximum(_gauge(traced.tables, m, phi, tau), 0.0))
     # To leave, the gauge must grow to 1; per mm it grows by no more than this.
     across = polynomials[:, [[4, 5, 6], [8, 9, 10]], 0]
-    stretch = np.linalg.svd(across, compute_uv=False)[:, 0]
+    stretch = np.linalg.svd(across, compute_uv=False)[m, 0]
     size = np.linalg.norm(phi, axis=1)
     growth = stretch * np.where(size > 1e-9, gauge / np.maximum(size, 1e-9), 1.0)
     depth = (1.0 - gauge) / np.maximum(growth, 1e-12)

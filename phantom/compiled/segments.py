@@ -26,9 +26,9 @@ from phantom.geometry.polynomials import (
     DEGREE,
     bernstein_matrix,
     derivative,
-    evaluate,
     interpolation_matrix,
     lobatto_nodes,
+    powers,
 )
 from phantom.geometry.refusal import RefusalError
 from phantom.geometry.swept import Hull, Sections, Shape
@@ -312,19 +312,19 @@ def _displacement(
     spread = at.spread.reshape(count, len(_CHECKS), 3, 2)
     middle = at.middle.reshape(count, len(_CHECKS), 3) - origins[:, None]
     x = middle[:, :, None] + np.einsum("knij,knvj->knvi", spread, phi)
-    tau = np.broadcast_to(_CHECKS[None, :, None], x.shape[:3])
-    slopes = derivative(polynomials)
 
-    def at_tau(p: Floats, row: int) -> Floats:
-        plane = [evaluate(p[:, row + j, None, None, :], tau) for j in range(4)]
-        return np.asarray(
-            x[..., 0] * plane[0] + x[..., 1] * plane[1] + x[..., 2] * plane[2] - plane[3]
-        )
+    def at_tau(p: Floats, tau: Floats) -> Floats:
+        """Every four rows of p as a plane: ``row.x - level``, second axis the planes."""
+        at = np.moveaxis(powers(tau.reshape(count, -1), DEGREE + 1), 0, 1)
+        rows = (p @ at).reshape(count, -1, 4, *tau.shape[1:])
+        return np.asarray(np.einsum("kricv,kcvi->krcv", rows[:, :, :3], x) - rows[:, :, 3])
 
     # One Newton step on F finds the traced tau: the error is already tiny.
-    tau = tau - at_tau(polynomials, 0) / at_tau(slopes, 0)
-    traced = np.stack([at_tau(polynomials, 4), at_tau(polynomials, 8)], axis=-1)
-    off = np.einsum("knij,knvj->knvi", spread, traced - phi)
+    plane = np.concatenate([polynomials[:, :4], derivative(polynomials[:, :4])], axis=1)
+    found = at_tau(plane, np.broadcast_to(_CHECKS[None, :, None], (count, len(_CHECKS), 1)))
+    tau = _CHECKS[:, None] - found[:, 0] / found[:, 1]
+    traced = at_tau(polynomials[:, 4:], tau)
+    off = np.einsum("knij,kjnv->knvi", spread, traced - np.moveaxis(phi, -1, 1))
     distance = np.linalg.norm(off, axis=-1).max(axis=(1, 2))
     # A changing contour's table meets the rest of the tolerance only with room to spare in tau.
     distance = distance + 2.0 * shape.fit_error(start, end)

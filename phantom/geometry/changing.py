@@ -11,11 +11,11 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, PPoly
 
 from phantom import document as doc
 from phantom.geometry.contours import Contour, check_simple, plane_outline, star
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.splines import Cubics, not_a_knot
 from phantom.geometry.star import chart_rays, kinks, monotone_cells, radii
 
 Floats = NDArray[np.float64]
@@ -48,7 +48,7 @@ class Morph:
 
     places: Floats  # (c,)
     contours: tuple[Contour, ...]
-    cardinal: PPoly  # the splines through 1 at one place and 0 at the others
+    cardinal: Cubics  # the splines through 1 at one place and 0 at the others
 
     @property
     def breaks(self) -> Floats:
@@ -131,7 +131,7 @@ def morph(sweep: doc.MorphSweep) -> Morph:
             )
         found.append(placed)
     places = np.array([s.at for s in sweep.contours], dtype=np.float64)
-    cardinal = CubicSpline(places, np.eye(len(places)), bc_type="not-a-knot")
+    cardinal = not_a_knot(places, np.eye(len(places)))
     result = Morph(places, tuple(found), cardinal)
     _check_positive(result)
     return result

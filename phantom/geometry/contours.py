@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from phantom import document as doc
 from phantom.geometry.formula_curves import formula_outline, polar_formula_outline
@@ -24,6 +23,7 @@ from phantom.geometry.outlines import (
 )
 from phantom.geometry.partition import star_parts
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.splines import periodic
 from phantom.geometry.vectors import plane_cross
 
 Floats = NDArray[np.float64]
@@ -129,14 +129,14 @@ def plane_outline(spec: doc.Contour) -> Outline:
             assert spec.radii is not None
             radii = np.array([*spec.radii, spec.radii[0]], dtype=np.float64)
             theta = np.linspace(0.0, 2 * np.pi, len(radii))
-            outline: Outline = PolarOutline(CubicSpline(theta, radii, bc_type="periodic"))
+            outline: Outline = PolarOutline(periodic(theta, radii))
             _check_polar(outline, "radii")
             return outline
         case doc.SplineContour():
             points = np.array([*spec.points, spec.points[0]], dtype=np.float64)
             lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
             knots = np.concatenate([[0.0], np.cumsum(lengths)]) / lengths.sum()
-            return SplineOutline(CubicSpline(knots, points, bc_type="periodic"))
+            return SplineOutline(periodic(knots, points))
         case doc.PolygonContour():
             points = np.array(spec.points, dtype=np.float64)
             return _rounded(points, float(spec.corner_radius))

@@ -13,17 +13,18 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline, CubicSpline, PPoly
 
 from phantom import document as doc
 from phantom.geometry import tolerances
 from phantom.geometry.formula_curves import formula_curve
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.splines import Cubics, not_a_knot, periodic
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 _CLOSER = 12  # looks between samples, each four times as close
+_STEEP = 16.0  # a place this many times as high as it is steep does not go on to 0
 
 
 class Curve(Protocol):
@@ -90,7 +91,7 @@ class TurningCurve:
         return result
 
 
-def _piecewise(spline: PPoly, closed: bool = False) -> PiecewiseCurve:
+def _piecewise(spline: Cubics, closed: bool = False) -> PiecewiseCurve:
     return PiecewiseCurve(
         np.asarray(spline.x, dtype=np.float64),
         np.ascontiguousarray(np.moveaxis(spline.c[::-1], 0, 1), dtype=np.float64),
@@ -107,12 +108,14 @@ def _chord_knots(points: Floats) -> Floats:
 def _spline(axis: doc.SplineAxis) -> Curve:
     points = np.array(axis.points, dtype=np.float64)
     if not axis.closed:
-        return _piecewise(CubicSpline(_chord_knots(points), points, bc_type="not-a-knot"))
+        return _piecewise(not_a_knot(_chord_knots(points), points))
     points = np.vstack([points, points[:1]])
-    return _piecewise(CubicSpline(_chord_knots(points), points, bc_type="periodic"), closed=True)
+    return _piecewise(periodic(_chord_knots(points), points), closed=True)
 
 
 def _bspline(axis: doc.BSplineAxis) -> Curve:
+    from scipy.interpolate import BSpline
+
     points = np.array(axis.control_points, dtype=np.float64)
     inner = len(points) - axis.degree + 1
     knots = np.concatenate(
@@ -205,27 +208,38 @@ def lowest(
 ) -> tuple[float, float]:
     """Return where a positive measure is smallest, and its value there.
 
-    It may dip to 0 between two samples: every low place is looked at closer and closer.
+    It may dip to 0 between two samples. On the way to 0 it falls, from one sample to the next, by
+    more than it is still high; low places where it falls by some share of that are looked at
+    closer and closer.
     """
     u, piece = sample_parameters(breaks, per_piece)
     values = measure(u, piece)
+    worst = int(np.argmin(values))
+    place, least = float(u[worst]), float(values[worst])
     rows = values.reshape(-1, per_piece)
-    edge = np.full((len(rows), 1), np.inf)
-    low = (rows <= np.hstack([edge, rows[:, :-1]])) & (rows <= np.hstack([rows[:, 1:], edge]))
-    row, column = np.nonzero(low)
+    fall = np.abs(np.diff(rows, axis=1))
+    edge = np.zeros((len(rows), 1))
+    steepest = np.maximum(np.hstack([edge, fall]), np.hstack([fall, edge]))
+    beside = np.full((len(rows), 1), np.inf)
+    low = (rows <= np.hstack([beside, rows[:, :-1]])) & (rows <= np.hstack([rows[:, 1:], beside]))
+    row, column = np.nonzero(low & (rows <= _STEEP * steepest))
     grid = u.reshape(-1, per_piece)
-    first, last = (
-        grid[row, np.maximum(column - 1, 0)],
-        grid[row, np.minimum(column + 1, per_piece - 1)],
-    )
+    first = grid[row, np.maximum(column - 1, 0)]
+    last = grid[row, np.minimum(column + 1, per_piece - 1)]
     for _ in range(_CLOSER):
+        if not len(row):
+            break
         near = np.linspace(first, last, 9)
         at = measure(near.ravel(), np.tile(row, 9)).reshape(near.shape)
         best, each = np.argmin(at, axis=0), np.arange(len(row))
-        u, values = near[best, each], at[best, each]
+        values = at[best, each]
+        if values.min() < least:
+            worst = int(np.argmin(values))
+            place, least = float(near[best, each][worst]), float(values[worst])
         first, last = near[np.maximum(best - 1, 0), each], near[np.minimum(best + 1, 8), each]
-    worst = int(np.argmin(values))
-    return float(u[worst]), float(values[worst])
+        on = values <= _STEEP * np.abs(np.diff(at, axis=0)).max(axis=0)
+        row, first, last = row[on], first[on], last[on]
+    return place, least
 
 
 def _check(candidate: Curve) -> None:

@@ -11,7 +11,8 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PPoly
+
+from phantom.geometry.splines import Cubics
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -32,7 +33,7 @@ class Outline(Protocol):
 class SplineOutline:
     """A periodic piecewise cubic in the plane."""
 
-    spline: PPoly
+    spline: Cubics
 
     @property
     def breaks(self) -> Floats:
@@ -56,7 +57,7 @@ class SplineOutline:
 class PolarOutline:
     """r(theta) as a periodic piecewise cubic; v is theta in radians."""
 
-    radius: PPoly
+    radius: Cubics
 
     @property
     def breaks(self) -> Floats:

@@ -68,3 +68,11 @@ def evaluate(coefficients: Floats, tau: Floats) -> Floats:
     for power in range(coefficients.shape[-1] - 2, -1, -1):
         value = value * tau + coefficients[..., power]
     return value
+
+
+def powers(tau: Floats, count: int) -> Floats:
+    """Return ``1, tau, tau^2 ...``, ``(count, *tau.shape)``."""
+    result = np.ones((count, *tau.shape))
+    for power in range(1, count):
+        result[power] = result[power - 1] * tau
+    return result

@@ -74,8 +74,9 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
     ray = turn + t[:, None] * across
     normal = np.stack([-ray[:, 1], ray[:, 0]], axis=-1)
     first, last = outline.breaks[piece], outline.breaks[piece + 1]
-    low, high = first, last
-    v, width = 0.5 * (low + high), high - low
+    low, high, width = first, last, last - first
+    v = 0.5 * (low + high)
+    found, left = v.copy(), np.arange(len(v))
     for _ in range(80):
         value = outline.derivatives(v, piece)
         f = np.einsum("ni,ni->n", value[0], normal)
@@ -87,12 +88,16 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
         settled = (slope > 0) & (np.abs(newton - v) <= 1e-6 * width)
         step = np.where(usable, newton, 0.5 * (low + high))
         step = np.where(settled, np.clip(newton, first, last), step)
-        moved = np.abs(step - v)
-        v = step
+        found[left] = step
         # A Newton step this small leaves its square: nothing.
-        if np.all(moved <= 1e-9 * width):
+        on = np.abs(step - v) > 1e-9 * width
+        if not on.any():
             break
-    return np.asarray(v)
+        v = step
+        if not on.all():
+            left, v, piece, normal = left[on], v[on], piece[on], normal[on]
+            first, last, low, high, width = (x[on] for x in (first, last, low, high, width))
+    return found
 
 
 def gauge(outline: Outline, T: Floats, piece: Ints) -> Floats:

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, PPoly
 
 from phantom import document as doc
 from phantom.geometry import tolerances
 from phantom.geometry.formula_curves import check_values, formula_breaks
 from phantom.geometry.formulas import Formula
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.splines import Cubics, not_a_knot
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ class FormulaProfile:
         return np.broadcast_to(self.formula.values(u=u), u.shape)
 
 
-Profile = float | PPoly | FormulaProfile
+Profile = float | Cubics | FormulaProfile
 Span = tuple[float, float]
 
 
@@ -42,7 +42,7 @@ def profile(value: doc.Profile, span: Span, path: str) -> Profile:
     """Turn a profile of a document into a number, a C2 cubic through knots, or a formula of u."""
     if isinstance(value, doc.KnotProfile):
         knots = np.array(value.knots, dtype=np.float64)
-        return CubicSpline(knots[:, 0], knots[:, 1], bc_type="not-a-knot")
+        return not_a_knot(knots[:, 0], knots[:, 1])
     if isinstance(value, doc.FormulaProfile):
         formula = Formula.of(value.formula, "u")
         breaks = formula_breaks([formula], "u", *span, 8)
