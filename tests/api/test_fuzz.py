@@ -19,6 +19,7 @@ SOUND: list[dict[str, Any]] = [
         "detector": {"columns": 8, "rows": 8, "pitch_mm": [1, 2]},
         "beam": {"energy_kev": 60},
         "presentation": {"mode": "stretch", "polarity": "bones_white", "bits": 8},
+        "blind": False,
     },
     {
         "phantom": {

@@ -19,7 +19,8 @@ from phantom.encode import encode
 FORMS = ("dicom", "dicom-processing")
 PRESENTATION, PROCESSING = "1.2.840.10008.5.1.4.1.1.1.{}", "1.2.840.10008.5.1.4.1.1.1.{}.1"
 
-# PS3.6 has had Synthetic Data (0008,001C) since 2023; the dciodvfy of Debian 12 is of 2022.
+# The dciodvfy of Debian 12 is of June 2022 and does not know Synthetic Data (0008,001C), which the
+# present PS3.6 has, and PS3.3 in the SOP Common module of every object.
 NEWER_THAN_THE_PROGRAM = (
     "Error - Attribute with an even group number is not a recognized standard attribute"
     " - (0x0008,0x001c)"

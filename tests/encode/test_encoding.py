@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -60,6 +62,25 @@ def test_extensions_and_media_types_name_the_same_formats() -> None:
         for extension in known.extensions:
             assert format_of_path(f"a/b{extension}") is known
             assert format_of_path(Path(f"b{extension.upper()}")) is known
+
+
+@pytest.mark.parametrize(
+    ("path", "name"),
+    [
+        ("knee.tif", "tiff"), ("knee.F32.TIF", "tiff-float32"), ("a.b/k.v2.u16.npy", "npy-uint16"),
+        ("knee.u16.v2.npy", "npy"), ("knee.raw.dcm", "dicom-processing"), ("knee.raw.png", "png"),
+    ],
+)  # fmt: skip
+def test_the_longest_extension_that_is_known_counts(path: str, name: str) -> None:
+    assert format_of_path(path).name == name
+
+
+def test_no_library_of_images_is_loaded_before_it_is_needed() -> None:
+    code = (
+        "import sys, phantom.encode;"
+        "sys.exit(bool({'pydicom', 'OpenImageIO', 'scipy', 'numba'} & sys.modules.keys()))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 @pytest.mark.parametrize("path", ["knee.gif", "knee", "png", "knee.png.", "a.npy/knee"])
