@@ -41,6 +41,8 @@ ENERGY_KEV: Final = 60.0
 INHERENT_FILTRATION_MM: Final[dict[str, float]] = {"beryllium": 0.5}
 """What every tube has in its beam: its window. Oil, glass and mirror are counted as filters."""
 
+DEFAULT_ANODE: Final[Anode] = "tungsten"
+
 DEFAULT_FILTRATION_MM: Final[dict[Anode, dict[str, float]]] = {
     "tungsten": {"aluminium": 2.5},
     "molybdenum": {"molybdenum": 0.03},
@@ -104,7 +106,7 @@ class Beam(Asked):
             message = "found energy_kev and kvp; expected one of them"
             refuse("contradiction", ((), message))
         if "anode" in info.data:
-            for problem in check_kvp(kvp, info.data["anode"] or "tungsten"):
+            for problem in check_kvp(kvp, info.data["anode"] or DEFAULT_ANODE):
                 refuse(problem.kind, ((), problem.message))
         return kvp
 
@@ -122,6 +124,9 @@ class Beam(Asked):
 
     @model_validator(mode="after")
     def _is_whole(self) -> Self:
+        # Straight into the model, which is frozen for others: null is not said.
+        silent = {name for name in self.model_fields_set if getattr(self, name) is None}
+        self.__pydantic_fields_set__.difference_update(silent)
         tube = {"anode": self.anode, "filtration_mm": self.filtration_mm}
         idle = [name for name, value in tube.items() if value is not None and self.kvp is None]
         if idle:
@@ -132,17 +137,16 @@ class Beam(Asked):
         if self.kvp is None:
             self._fill(energy_kev=ENERGY_KEV)
         else:
-            self._fill(anode="tungsten")
+            self._fill(anode=DEFAULT_ANODE)
             assert self.anode is not None
             self._fill(filtration_mm=dict(DEFAULT_FILTRATION_MM[self.anode]))
         return self
 
     def _fill(self, **values: object) -> None:
-        """Put in what was left out, or null, and do not count it among what was said."""
+        """Put in what was left out; it does not count among what was said."""
         for name, value in values.items():
             if getattr(self, name) is None:
                 self.__dict__[name] = value
-                self.__pydantic_fields_set__.discard(name)
 
     def spectrum(self, cut_at_kev: FloatArray | None = None) -> Spectrum:
         """Return the photons that leave the tube's last filter, or the one energy.

@@ -26,6 +26,7 @@ from phantom.imaging import (
     document_sha256,
     radiograph,
 )
+from phantom.imaging.beam import DEFAULT_ANODE
 from phantom.requests.limits import Limits
 from phantom.requests.subject import LibraryPhantom, Subject, read_request
 from phantom.requests.viewpoint import PlacedView, PresetView, Viewpoint, view_of
@@ -159,21 +160,21 @@ def _filled(model: ModelT, **defaults: object) -> ModelT:
 def _beam(asked: Beam, technique: library.Technique) -> Beam:
     """Return the beam with what the request left out as the technique has it.
 
-    What is said of the tube is kept; a voltage alone keeps the technique's anode and filters.
+    What is said of the tube is kept; a voltage alone keeps the technique's anode and filters, and
+    another anode has filters of its own.
     """
     said: dict[str, Any] = {name: getattr(asked, name) for name in asked.model_fields_set}
-    if said.get("energy_kev") is not None:
+    if "energy_kev" in said:
         return asked
     usual: dict[str, Any]
-    if technique.kvp is None and said.get("kvp") is None:
+    if technique.kvp is None and "kvp" not in said:
         usual = {"energy_kev": technique.energy_kev}
     else:
         usual = {"kvp": technique.kvp, "anode": technique.anode}
-        # Filters belong to their anode.
-        if said.get("anode") in (None, technique.anode) and technique.filtration_mm is not None:
+        own_anode = technique.anode or DEFAULT_ANODE
+        if technique.filtration_mm is not None and said.get("anode", own_anode) == own_anode:
             usual["filtration_mm"] = dict(technique.filtration_mm)
-    spoken = {name: value for name, value in said.items() if value is not None}
-    return _filled(asked, **Beam(**{**usual, **spoken}).model_dump())
+    return _filled(asked, **Beam(**{**usual, **said}).model_dump())
 
 
 def _beam_words(beam: Beam) -> dict[str, object]:

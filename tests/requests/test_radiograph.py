@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 
 import pytest
 
@@ -51,6 +52,52 @@ def test_defaults_written_out_make_the_same_request():
         "presentation": {"mode": "stretch", "polarity": "bones_white", "bits": 8},
     }
     assert plan(written).fingerprint() == planned.fingerprint()
+
+
+def test_a_tube_written_out_makes_the_same_request():
+    short = plan(SPHERE | {"beam": {"kvp": 70}})
+    written = {"kvp": 70.0, "anode": "tungsten", "filtration_mm": {"aluminium": 2.5}}
+    assert plan(SPHERE | {"beam": written}).fingerprint() == short.fingerprint()
+    assert short.fingerprint() != plan(SPHERE).fingerprint()
+    words = {name: short.chosen[name] for name in ("kvp", "anode", "filtration")}
+    assert words == {"kvp": 70, "anode": "tungsten", "filtration": "aluminium=2.5"}
+    assert "energy_kev" not in short.chosen
+
+
+@pytest.fixture
+def breast(monkeypatch):
+    """The sphere, X-rayed as a breast is in one view and as a knee in all others."""
+    entry = dataclasses.replace(
+        library.entry("sphere"),
+        technique=library.Technique(kvp=65.0),
+        techniques={
+            "cc": library.Technique(
+                kvp=28.0,
+                anode="tungsten",
+                filtration_mm={"rhodium": 0.05},
+                source_detector_mm=650.0,
+                object_detector_mm=50.0,
+            )
+        },
+    )
+    monkeypatch.setattr(library, "entry", lambda _: entry)
+
+
+@pytest.mark.usefixtures("breast")
+def test_the_technique_is_that_of_the_phantom_and_the_view():
+    beam = plan(SPHERE).beam
+    assert (beam.kvp, beam.anode, beam.filtration_mm) == (65, "tungsten", {"aluminium": 2.5})
+    cc = SPHERE | {"view": {"preset": "cc"}}
+    assert plan(cc).beam.filtration_mm == {"rhodium": 0.05}
+    assert plan(cc).chosen["source_detector_mm"] == 650
+    other_voltage = plan(cc | {"beam": {"kvp": 32}}).beam
+    assert (other_voltage.kvp, other_voltage.filtration_mm) == (32, {"rhodium": 0.05})
+    other_anode = plan(cc | {"beam": {"kvp": 28, "anode": "molybdenum"}}).beam
+    assert other_anode.filtration_mm == {"molybdenum": 0.03}
+    single = plan(cc | {"beam": {"energy_kev": 20}}).beam
+    assert (single.energy_kev, single.kvp, single.filtration_mm) == (20, None, None)
+    unsaid = plan(cc | {"beam": {"energy_kev": None, "kvp": None}}).beam
+    assert unsaid.kvp == 28
 
 
 def test_any_difference_makes_another_request():

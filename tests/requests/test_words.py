@@ -44,6 +44,35 @@ def test_words_stand_where_the_request_has_them():
     }
 
 
+@pytest.mark.parametrize(
+    ("text", "filters"),
+    [
+        ("aluminium=2.5", {"aluminium": 2.5}),
+        ("aluminium = 3, copper=0.1", {"aluminium": 3, "copper": 0.1}),
+        ('{"copper": 0.1}', {"copper": 0.1}),
+        ("none", {}),
+    ],
+)
+def test_filters_are_materials_with_a_thickness(text, filters):
+    tree, problems = request_tree({}, [("kvp", "70"), ("filtration", text)])
+    assert problems == ()
+    assert tree["beam"] == {"kvp": 70, "filtration_mm": filters}
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("copper", ("/beam/filtration_mm", "not_a_pair")),
+        ("=2", ("/beam/filtration_mm", "not_a_pair")),
+        ("copper=1,", ("/beam/filtration_mm", "not_a_pair")),
+        ("copper=1,copper=1", ("/beam/filtration_mm/copper", "given_twice")),
+    ],
+)
+def test_filters_that_are_none_are_told(text, problem):
+    _, problems = request_tree({}, [("filtration", text)])
+    assert [(p.path, p.kind) for p in problems] == [problem]
+
+
 def test_unknown_and_repeated_words_are_all_told():
     _, problems = request_tree({}, [("colour", "1"), ("bits", "8"), ("bits", "16"), ("~/", "")])
     assert [(p.path, p.kind) for p in problems] == [
