@@ -149,7 +149,6 @@ def generation(dataset: Dataset, facts: Facts) -> None:
     if facts.anode is not None:
         dataset.AnodeTargetMaterial = facts.anode.upper()
     if facts.filtration_mm:
-        dataset.FilterType = "FLAT"
         names = [_code_string(name) for name in facts.filtration_mm]
         dataset.FilterMaterial = ["ALUMINUM" if n == "ALUMINIUM" else n for n in names]
         thicknesses = [decimal(value) for value in facts.filtration_mm.values()]
