@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ from phantom.geometry.refusal import RefusalError
 from phantom.geometry.swept import ChangingShape
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
 
 _T_DEGREE = 5
 _CHECKS_T = np.array([-0.93, -0.7, -0.35, 0.1, 0.5, 0.8, 0.96])
@@ -45,39 +47,36 @@ def changing_tables(shape: ChangingShape, knots: Floats, tolerance: float) -> li
         At ``/sweep``, where more than :data:`MAX_CELLS` cells would be needed.
     """
     marks = shape.changing.marks
-    low, high = marks[:-1], marks[1:]
+    count = len(knots) - 1
+    low, high = np.tile(marks[:-1], count), np.tile(marks[1:], count)
+    segment = np.repeat(np.arange(count), len(marks) - 1)
     start, end = knots[:-1, None], knots[1:, None]
     middle, half = 0.5 * (start + end), 0.5 * (end - start)
     nodes = np.clip(middle + half * lobatto_nodes(), start, end)
     checks = middle + half * _CHECKS_TAU
     powers = np.vander(_CHECKS_T, _T_DEGREE + 1, increasing=True)
     tau_powers = np.vander(_CHECKS_TAU, DEGREE + 1, increasing=True)
-    done: list[tuple[Floats, Floats]] = []
+    done: list[tuple[Ints, Floats, Floats]] = []
     total = 0
     for _ in range(40):
         width = 0.5 * (high - low)
         at = (0.5 * (low + high))[:, None] + width[:, None] * lobatto_nodes(_T_DEGREE)
-        values = _gauge(shape, at, nodes)
-        cells = np.einsum(
-            "pt,ctkn,qn->ckpq", interpolation_matrix(_T_DEGREE), values, interpolation_matrix()
-        )
+        values = _gauge(shape, at, nodes[segment])
+        cells = interpolation_matrix(_T_DEGREE) @ values @ interpolation_matrix().T
         at = (0.5 * (low + high))[:, None] + width[:, None] * _CHECKS_T
-        truth = _gauge(shape, at, checks)
-        found = np.einsum("tp,ckpq,nq->ctkn", powers, cells, tau_powers)
+        truth = _gauge(shape, at, checks[segment])
+        found = powers @ cells @ tau_powers.T
         t = at - 2.0 * np.minimum(at // 2, 3) - 1.0
-        radius = np.sqrt((1 + t[..., None, None] ** 2) / truth)
-        error = (0.5 * radius * np.abs(found - truth) / truth).max(axis=(1, 3))
-        # All segments share their cells: what one of them needs, all get.
-        good = (error <= tolerance).all(axis=1)
-        done.append((low[good], cells[good]))
+        radius = np.sqrt((1 + t[..., None] ** 2) / truth)
+        error = (0.5 * radius * np.abs(found - truth) / truth).max(axis=(1, 2))
+        good = error <= tolerance
+        done.append((segment[good], low[good], cells[good]))
         total += int(good.sum())
         if good.all():
             break
-        low, high = low[~good], high[~good]
-        middles = 0.5 * (low + high)
-        low, high = np.concatenate([low, middles]), np.concatenate([middles, high])
-        if (total + len(low)) * len(nodes) > MAX_CELLS:
-            worst = int(np.argmax(error.max(axis=0)))
+        segment, low, high = segment[~good], low[~good], high[~good]
+        if total + 2 * len(low) > MAX_CELLS:
+            worst = segment[int(np.argmax(error[~good]))]
             raise RefusalError(
                 "/sweep",
                 "contour_detail",
@@ -85,13 +84,21 @@ def changing_tables(shape: ChangingShape, knots: Floats, tolerance: float) -> li
                 f"{knots[worst + 1]:.6g}: {MAX_CELLS} cells leave {float(error.max()):.3g} of its "
                 f"radius; expected {tolerance:.3g}",
             )
-    starts = np.concatenate([d[0] for d in done])
-    order = np.argsort(starts)
-    edges = np.append(starts[order], 8.0)
-    cells = np.concatenate([d[1] for d in done])[order]
+        middles = 0.5 * (low + high)
+        low, high = np.concatenate([low, middles]), np.concatenate([middles, high])
+        segment = np.concatenate([segment, segment])
+    owner = np.concatenate([d[0] for d in done])
+    starts = np.concatenate([d[1] for d in done])
+    order = np.lexsort((starts, owner))
+    cells = np.concatenate([d[2] for d in done])[order]
+    first = np.searchsorted(owner[order], np.arange(count + 1))
     return [
-        ChangingTable(edges, np.ascontiguousarray(cells[:, k]), _kinks(shape, *knots[k : k + 2]))
-        for k in range(len(nodes))
+        ChangingTable(
+            np.append(starts[order][a:b], 8.0),
+            np.ascontiguousarray(cells[a:b]),
+            _kinks(shape, *knots[k : k + 2]),
+        )
+        for k, (a, b) in enumerate(itertools.pairwise(first))
     ]
 
 
@@ -111,11 +118,11 @@ def _kinks(shape: ChangingShape, start: float, end: float) -> Floats:
 
 
 def _gauge(shape: ChangingShape, T: Floats, u: Floats) -> Floats:
-    """Return g at ``(cells, points)`` pseudo-angles and (K, n) parameters, in that order."""
+    """Return g ``(cells, T, u)`` at pseudo-angles (cells, T) and parameters (cells, u)."""
     inside = np.clip(T, np.min(T, axis=1, keepdims=True), np.nextafter(T[:, -1:], T[:, :1]))
     t = inside - 2.0 * np.minimum(inside // 2, 3) - 1.0
-    radius = shape.changing.radii(inside.ravel(), u.ravel()) / shape.unit
-    return np.asarray((1 + t[..., None, None] ** 2) / radius.reshape(*T.shape, *u.shape) ** 2)
+    radius = shape.changing.radii(inside, u) / shape.unit
+    return np.asarray((1 + t[..., None] ** 2) / radius**2)
 
 
 class ChangingSection:

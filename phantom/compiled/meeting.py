@@ -89,6 +89,8 @@ def _divided(parts: list[Traced], one: Ints, two: Ints) -> NDArray[np.bool_]:
         planes[rows] = part.segments.planes[one[rows, 1, None] + np.arange(2)]
     for q, part in enumerate(parts):
         mine = np.flatnonzero(two[:, 0] == q)
+        if not len(mine):
+            continue
         segments, index = np.unique(two[mine, 1], return_inverse=True)
         samples = _surfaces(part, segments)
         for start in range(0, len(mine), _BATCH):

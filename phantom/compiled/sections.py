@@ -100,7 +100,7 @@ class HessianGrid:
         y = Interval(*_pair(edges[None, :-1], edges[None, 1:]))
         found = _hessian_ranges(table_edges, ranges, x, y)
         low, high = np.stack([r.low for r in found]), np.stack([r.high for r in found])
-        self._pyramid = _pyramid(low, high)
+        self._low, self._high = {(0, 0): low}, {(0, 0): high}
         self._all = [Interval(a.min(), b.max()) for a, b in zip(low, high, strict=True)]
 
     def over(
@@ -114,20 +114,35 @@ class HessianGrid:
 
     def _lookup(self, k: int, x: Interval, y: Interval) -> Interval:
         (low_x, high_x, level_x), (low_y, high_y, level_y) = _span(x), _span(y)
-        low, high = self._pyramid
-        corners = [
-            (level_x, level_y, i, j)
-            for i in (low_x, high_x - 2**level_x + 1)
-            for j in (low_y, high_y - 2**level_y + 1)
-        ]
-        lowest = np.min([low[a, b, k, i, j] for a, b, i, j in corners], axis=0)
-        highest = np.max([high[a, b, k, i, j] for a, b, i, j in corners], axis=0)
+        low_x, high_x, level_x, low_y, high_y, level_y = np.broadcast_arrays(
+            low_x, high_x, level_x, low_y, high_y, level_y
+        )
+        lowest, highest = np.empty(level_x.shape), np.empty(level_x.shape)
+        levels = level_x * _LEVELS + level_y
+        for level in np.unique(levels):
+            here = levels == level
+            a, b = divmod(int(level), _LEVELS)
+            low, high = self._blocks(a, b)
+            i = (low_x[here], high_x[here] - 2**a + 1)
+            j = (low_y[here], high_y[here] - 2**b + 1)
+            corners = [(p, q) for p in i for q in j]
+            lowest[here] = np.min([low[k, p, q] for p, q in corners], axis=0)
+            highest[here] = np.max([high[k, p, q] for p, q in corners], axis=0)
         # Beyond the grid any angle may be meant.
         outside = (x.low < -_REACH) | (x.high > _REACH) | (y.low < -_REACH) | (y.high > _REACH)
         whole = self._all[k]
         return Interval(
             np.where(outside, whole.low, lowest), np.where(outside, whole.high, highest)
         )
+
+    def _blocks(self, a: int, b: int) -> tuple[Floats, Floats]:
+        """Minima and maxima over all 2^a x 2^b squares, from blocks half as large."""
+        if (a, b) not in self._low:
+            low, high = self._blocks(a - 1, b) if a else self._blocks(a, b - 1)
+            step, axis = (2 ** (a - 1), 1) if a else (2 ** (b - 1), 2)
+            self._low[a, b] = np.minimum(low, _shifted(low, step, axis))
+            self._high[a, b] = np.maximum(high, _shifted(high, step, axis))
+        return self._low[a, b], self._high[a, b]
 
 
 def _pair(a: Floats, b: Floats) -> tuple[Floats, Floats]:
@@ -142,21 +157,6 @@ def _span(r: Interval) -> tuple[Ints, Ints, Ints]:
     last = np.clip(np.floor((r.high + _REACH) / step), 0, _GRID - 1).astype(np.intp)
     level = np.floor(np.log2(last - first + 1)).astype(np.intp)
     return first, last, level
-
-
-def _pyramid(low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Minima and maxima over all 2^i x 2^j squares: (levels, levels, quantities, grid, grid)."""
-    lows = np.empty((_LEVELS, _LEVELS, *low.shape))
-    highs = np.empty_like(lows)
-    lows[0, 0], highs[0, 0] = low, high
-    for i in range(_LEVELS):
-        if i:
-            lows[i, 0] = np.minimum(lows[i - 1, 0], _shifted(lows[i - 1, 0], 2 ** (i - 1), 1))
-            highs[i, 0] = np.maximum(highs[i - 1, 0], _shifted(highs[i - 1, 0], 2 ** (i - 1), 1))
-        for j in range(1, _LEVELS):
-            lows[i, j] = np.minimum(lows[i, j - 1], _shifted(lows[i, j - 1], 2 ** (j - 1), 2))
-            highs[i, j] = np.maximum(highs[i, j - 1], _shifted(highs[i, j - 1], 2 ** (j - 1), 2))
-    return lows, highs
 
 
 def _shifted(values: Floats, step: int, axis: int) -> Floats:

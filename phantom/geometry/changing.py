@@ -20,6 +20,9 @@ from phantom.geometry.star import chart_rays, kinks, monotone_cells, radii
 
 Floats = NDArray[np.float64]
 
+EVENLY = 8.0 * np.arange(48) / 48 + 0.01
+"""Pseudo-angles spread evenly, and off the half-axes."""
+
 
 class Sections(Protocol):
     """The section of every u as a radius about a centre."""
@@ -35,8 +38,11 @@ class Sections(Protocol):
     def centers(self, u: Floats) -> Floats:
         """Return the centres ``(n, 2)`` in mm in the plane of n and b."""
 
+    def watched(self, start: Floats, end: Floats) -> Floats:
+        """Return T where the change over ranges of u is to be looked at, ``(n or 1, T)``."""
+
     def radii(self, T: Floats, u: Floats) -> Floats:
-        """Return the radii ``(T, u)`` in mm."""
+        """Return the radii ``(..., T, u)`` in mm at ``T (..., T)`` and ``u (..., u)``."""
 
     def corners(self, u: Floats) -> tuple[Floats, Floats]:
         """Return T ``(k,)`` of the corners, and the jumps ``(k, u)`` of h's slope per |phi|."""
@@ -70,10 +76,15 @@ class Morph:
         """Morphs are about the origin."""
         return np.zeros((len(u), 2))
 
+    def watched(self, start: Floats, end: Floats) -> Floats:
+        """Anywhere: nothing moves round."""
+        return EVENLY[None]
+
     def radii(self, T: Floats, u: Floats) -> Floats:
         """Blend the contours' own radii."""
-        own = np.stack([_radii(contour, T) for contour in self.contours])
-        return np.asarray(own.T @ self._weights(u).T)
+        distinct, which = np.unique(T, return_inverse=True)
+        own = np.stack([_radii(contour, distinct) for contour in self.contours], axis=-1)
+        return np.asarray(own[which.reshape(T.shape)] @ np.swapaxes(self._weights(u), -1, -2))
 
     def corners(self, u: Floats) -> tuple[Floats, Floats]:
         """Blend the corners too: a contour's jump is ``-2 dr' / r^3`` of its own radius."""

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom import document as doc
+from phantom.geometry.changing import EVENLY
 from phantom.geometry.contours import outline_samples
 from phantom.geometry.formulas import Formula
 from phantom.geometry.outlines import Outline
@@ -20,6 +21,7 @@ from phantom.geometry.star import chart_rays, kinks, pseudo_angle
 from phantom.geometry.vectors import plane_cross
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
 
 _AROUND = 768
 _INVERSE = 1e-9
@@ -40,13 +42,7 @@ class FormulaSections:
 
     def centers(self, u: Floats) -> Floats:
         """Return the centroids of the sections."""
-        points = self.placed(u)
-        following = np.roll(points, -1, axis=1)
-        cross = points[..., 0] * following[..., 1] - points[..., 1] * following[..., 0]
-        total = cross.sum(axis=1)
-        return np.asarray(
-            ((points + following) * cross[..., None]).sum(axis=1) / (3 * total[:, None])
-        )
+        return _centroids(self.placed(u))
 
     def corners(self, u: Floats) -> tuple[Floats, Floats]:
         """There are none."""
@@ -63,44 +59,56 @@ class FormulaSections:
         columns = [np.broadcast_to(f.values(x=x, y=y, u=u), x.shape) for f in self.forward]
         return np.stack(columns, axis=-1).reshape(*shape, 2)
 
+    def watched(self, start: Floats, end: Floats) -> Floats:
+        """Return T where a section may change least smoothly over ranges of u, ``(n, T)``.
+
+        The joints of the contour's pieces, which move round as u goes on, at a few u of each.
+        """
+        breaks = self.outline.breaks
+        joints = self.outline.derivatives(breaks[:-1], np.arange(len(breaks) - 1))[0]
+        u = (start[:, None] + np.array([0.25, 0.5, 0.75]) * (end - start)[:, None]).ravel()
+        seen = self._map(joints[None, :, 0], joints[None, :, 1], u[:, None])
+        seen = seen - self.centers(u)[:, None]
+        moving = pseudo_angle(seen.reshape(-1, 2)).reshape(len(start), -1)
+        fixed = np.broadcast_to(EVENLY, (len(start), len(EVENLY)))
+        return np.concatenate([fixed, moving], axis=1)
+
     def radii(self, T: Floats, u: Floats) -> Floats:
         """Solve for the contour's point on the ray of each pseudo-angle, by safeguarded secants."""
         breaks = self.outline.breaks
         each = max(4, int(np.ceil(_AROUND / (len(breaks) - 1))))
-        sampled = self.placed(u)
-        centers = self.centers(u)
+        distinct, which = np.unique(u, return_inverse=True)
+        sampled = self.placed(distinct)
+        centers = _centroids(sampled)
         seen = sampled - centers[:, None]
         turn = np.sign(plane_cross(seen, np.roll(seen, -1, axis=1)).sum(axis=1))
-        rays = chart_rays(T)
-        # The last sample before each ray, going round in the contour's own direction.
-        index = np.empty((len(u), len(T)), dtype=np.intp)
-        for k, points in enumerate(seen):
-            at = pseudo_angle(points)
-            first = int(np.argmin(at)) if turn[k] > 0 else int(np.argmax(at))
-            order = np.roll(at, -first)
-            if turn[k] > 0:
-                place = np.searchsorted(order, T, side="right") - 1
-            else:
-                place = len(at) - 1 - np.searchsorted(order[::-1], T, side="right")
-            index[k] = (place + first) % len(at)
-        before = np.take_along_axis(seen, index[..., None], axis=1)
-        after = np.take_along_axis(seen, (index[..., None] + 1) % seen.shape[1], axis=1)
-        piece = index // each
+        shape = np.broadcast_shapes((*T.shape, 1), (*u.shape[:-1], 1, u.shape[-1]))
+        at = np.broadcast_to(T[..., None], shape).ravel()
+        owner = np.broadcast_to(which.reshape(u.shape)[..., None, :], shape).ravel()
+        before = _samples_before(seen, turn, at, owner)
+        after = (before + 1) % seen.shape[1]
+        rays, sense = chart_rays(at), turn[owner]
+        piece = before // each
         step = np.diff(breaks)[piece] / each
-        low = breaks[piece] + (index % each) * step
+        low = breaks[piece] + (before % each) * step
         high = low + step
-        f_low = turn[:, None] * plane_cross(rays[None], before)
-        f_high = turn[:, None] * plane_cross(rays[None], after)
-        all_u = np.broadcast_to(u[:, None], low.shape)
-        point = np.zeros((*low.shape, 2))
-        side = np.zeros(low.shape, dtype=np.intp)
+        f_low = sense * plane_cross(rays, seen[owner, before])
+        f_high = sense * plane_cross(rays, seen[owner, after])
+        side = np.zeros(len(at), dtype=np.intp)
+        found, left = np.zeros(len(at)), np.arange(len(at))
         for _ in range(60):
             rise = f_high - f_low
             v = (low * f_high - high * f_low) / np.where(rise != 0, rise, 1.0)
             v = np.where((rise != 0) & (v >= low) & (v <= high), v, 0.5 * (low + high))
-            plane = self.outline.derivatives(v.ravel(), piece.ravel())[0].reshape(*v.shape, 2)
-            point = self._map(plane[..., 0], plane[..., 1], all_u) - centers[:, None]
-            f = turn[:, None] * plane_cross(rays[None], point)
+            plane = self.outline.derivatives(v, piece)[0]
+            point = self._map(plane[:, 0], plane[:, 1], distinct[owner]) - centers[owner]
+            f = sense * plane_cross(rays, point)
+            size = np.linalg.norm(point, axis=-1)
+            found[left] = size
+            # The radius is off by the square of this, and by its rounding.
+            on = np.abs(f) > 1e-12 * size * np.linalg.norm(rays, axis=-1)
+            if not on.any():
+                break
             under = f <= 0
             # Illinois: an end that stays twice counts half, so that both close in.
             f_high = np.where(under & (side == -1), 0.5 * f_high, f_high)
@@ -108,11 +116,31 @@ class FormulaSections:
             side = np.where(under, -1, 1)
             low, f_low = np.where(under, v, low), np.where(under, f, f_low)
             high, f_high = np.where(under, high, v), np.where(under, f_high, f)
-            size = np.linalg.norm(point, axis=-1)
-            # The radius is off by the square of this, and by its rounding.
-            if np.all(np.abs(f) <= 1e-12 * size * np.linalg.norm(rays, axis=-1)):
-                break
-        return np.asarray(np.linalg.norm(point, axis=-1).T)
+            left, owner, piece, rays, sense, side = (
+                x[on] for x in (left, owner, piece, rays, sense, side)
+            )
+            low, high, f_low, f_high = (x[on] for x in (low, high, f_low, f_high))
+        return found.reshape(shape)
+
+
+def _centroids(points: Floats) -> Floats:
+    """Return the centroids of polygons ``(n, V, 2)``."""
+    following = np.roll(points, -1, axis=1)
+    cross = plane_cross(points, following)
+    total = cross.sum(axis=1)
+    return np.asarray(((points + following) * cross[..., None]).sum(axis=1) / (3 * total[:, None]))
+
+
+def _samples_before(seen: Floats, turn: Floats, T: Floats, owner: Ints) -> Ints:
+    """Return the last sample before each ray, going round in the section's own direction."""
+    count = seen.shape[1]
+    at = pseudo_angle(seen.reshape(-1, 2)).reshape(len(seen), count)
+    order = np.argsort(at, axis=1)
+    # All sections in one increasing row, 10 apart.
+    row = np.take_along_axis(at, order, axis=1) + 10.0 * np.arange(len(seen))[:, None]
+    place = np.searchsorted(row.ravel(), T + 10.0 * owner, side="right") - 1 - count * owner
+    below = order[owner, place]
+    return np.asarray(np.where(turn[owner] > 0, below, (below - 1) % count), dtype=np.intp)
 
 
 def formula_sections(

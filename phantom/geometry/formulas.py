@@ -49,7 +49,6 @@ class Formula:
         self.expression = expression
         nodes = list(walk(expression))
         self.variables = frozenset(node.name for node in nodes if isinstance(node, Variable))
-        self.is_constant = not self.variables
         self.is_smooth = not any(
             isinstance(node, Conditional) or (isinstance(node, Call) and node.function in _CHOOSING)
             for node in nodes

@@ -117,7 +117,7 @@ def power(a: Floats, exponent: Floats) -> Floats:
     # The binomial series about a[0]; a falling factorial of 0 ends it, also at a base of 0.
     rest = a.copy()
     rest[0] = 0.0
-    result = constant_like(a, np.power(a[0], exponent))
+    result = constant_like(a, _raised(a[0], exponent))
     falling, powers = np.ones_like(exponent), constant_like(a, 1.0)
     for m in range(1, len(a)):
         falling = falling * (exponent - (m - 1)) / m
@@ -125,6 +125,15 @@ def power(a: Floats, exponent: Floats) -> Floats:
         term = np.where(falling == 0, 0.0, falling * np.power(a[0], exponent - m))
         result[m:] += term * powers[m:]  # below m the powers are 0, and the term may be infinite
     return result
+
+
+def _raised(base: Floats, exponent: Floats) -> Floats:
+    """Return ``base ** exponent``; small whole powers by products, many times as fast."""
+    whole = float(exponent.flat[0]) if exponent.size else 0.0
+    if whole in (2.0, 3.0, 4.0) and bool(np.all(exponent == whole)):
+        square = base * base
+        return square if whole == 2 else square * (base if whole == 3 else square)
+    return np.asarray(np.power(base, exponent))
 
 
 def general_power(a: Floats, b: Floats) -> Floats:

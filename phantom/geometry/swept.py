@@ -19,7 +19,7 @@ from phantom.geometry.formula_sweeps import formula_sections
 from phantom.geometry.frames import Frame, RotationMinimizingFrame, frame, rotation_minimizing
 from phantom.geometry.polynomials import interpolation_matrix, lobatto_nodes
 from phantom.geometry.refusal import RefusalError
-from phantom.geometry.star import chart_rays, radii
+from phantom.geometry.star import chart_rays
 from phantom.geometry.sweeps import AnyLinear, linear_sweep
 
 Floats = NDArray[np.float64]
@@ -79,12 +79,6 @@ class SweptShape:
             return Hull(None, 0.0)
         return Hull(*outline_hull(self.contour.outline, count))
 
-    def unit_radii(self, T: Floats, u: Floats) -> Floats:
-        """Return the contour's radius in unit coordinates at pseudo-angles, each with its u."""
-        if self.contour.outline is None:
-            return np.ones(len(T))
-        return radii(self.contour.outline, chart_rays(T))
-
     def pieces(self, breaks: Floats) -> Ints:
         """Return the axis piece over each interval of ``breaks``."""
         return axis_pieces(self.curve, breaks)
@@ -129,10 +123,6 @@ class ChangingShape:
         directions = rays / np.linalg.norm(rays, axis=1)[:, None]
         return np.asarray((self.changing.radii(T, u) / self.unit).T[..., None] * directions)
 
-    def unit_radii(self, T: Floats, u: Floats) -> Floats:
-        """Return the contour's radius in unit coordinates at pseudo-angles, each with its u."""
-        return np.asarray(np.diagonal(self.changing.radii(T, u)) / self.unit)
-
     def pieces(self, breaks: Floats) -> Ints:
         """Return the axis piece over each interval of ``breaks``."""
         return axis_pieces(self.curve, breaks)
@@ -144,18 +134,15 @@ class ChangingShape:
 
     def fit_error(self, start: Floats, end: Floats) -> Floats:
         """How far radii are off, in mm, where they are interpolated over each range of u."""
-        T = 8.0 * np.arange(48) / 48 + 0.01
+        T = self.changing.watched(start, end)
         nodes, checks = lobatto_nodes(), np.array([-0.95, -0.6, -0.2, 0.3, 0.7, 0.97])
         middle, half = 0.5 * (start + end)[:, None], 0.5 * (end - start)[:, None]
-        known = self.changing.radii(
-            T, np.clip(middle + half * nodes, start[:, None], end[:, None]).ravel()
-        )
-        truth = self.changing.radii(T, (middle + half * checks).ravel())
+        known = self.changing.radii(T, np.clip(middle + half * nodes, start[:, None], end[:, None]))
+        truth = self.changing.radii(T, middle + half * checks)
         # Tables hold 1 / r^2 (the gauge): an error of it moves the radius by r^3 / 2 of it.
         powers = np.vander(checks, len(nodes), increasing=True) @ interpolation_matrix()
-        found = known.reshape(len(T), len(start), -1) ** -2.0 @ powers.T
-        truth = truth.reshape(found.shape)
-        return np.asarray((0.5 * truth**3 * np.abs(found - truth**-2.0)).max(axis=(0, 2)))
+        found = known**-2.0 @ powers.T
+        return np.asarray((0.5 * truth**3 * np.abs(found - truth**-2.0)).max(axis=(1, 2)))
 
 
 Shape = SweptShape | ChangingShape
