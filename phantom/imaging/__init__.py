@@ -9,6 +9,7 @@ from phantom.imaging.poses import PRESETS, Pose, PresetName, pose
 from phantom.imaging.presentation import Presentation, present
 from phantom.imaging.presets import DetectorGrid, Preset
 from phantom.imaging.result import IMAGES, QUANTITIES, Quantity, Radiograph
+from phantom.imaging.spectrum import Spectrum
 from phantom.imaging.view import Detector, View
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "Projection",
     "Quantity",
     "Radiograph",
+    "Spectrum",
     "View",
     "attenuations_per_mm",
     "box_corners",
