@@ -5,6 +5,8 @@ Nothing of the engine is imported before a command runs, so that ``phantom --hel
 
 from __future__ import annotations
 
+import gc
+
 import typer
 
 from phantom.cli import documents, library, radiograph, serve
@@ -26,6 +28,8 @@ app.command("serve")(serve.serve)
 
 def main() -> None:
     """Run the command line; the console script ``phantom``."""
+    # Loading modules makes hardly any garbage: look for it less often.
+    gc.set_threshold(100_000)
     app()
 
 

@@ -26,7 +26,7 @@ def validate(
 
         tree = read_file(file)
         phantom = load(tree if isinstance(tree, dict) else parse(tree))
-        ready()
+        ready(quiet=as_json)
         summary = summarise(phantom)
         if as_json:
             answer(summary.model_dump(mode="json"))

@@ -101,7 +101,7 @@ def make(
         path = Path(output or f"{planned.phantom.document.name}-{pose}.png")
         planned.check_format(format_of_path(path))
         _tell_defaults(planned, given, None if output else path)
-        made, beside = _render(planned, path, sidecar=sidecar)
+        made, beside = _render(planned, path, sidecar=sidecar, quiet=as_json)
         for warning in made.warnings:
             say(f"warning: {warning}")
         if as_json:
@@ -119,13 +119,13 @@ def _tell_defaults(
 
 
 def _render(
-    planned: RadiographPlan, path: Path, *, sidecar: bool
+    planned: RadiographPlan, path: Path, *, sidecar: bool, quiet: bool
 ) -> tuple[Radiograph, Mapping[str, Any]]:
     """Trace the radiograph, write it and return it with what a sidecar says."""
     from phantom.cli.engine import ready
     from phantom.encode import save
 
-    ready()
+    ready(quiet=quiet)
     with Bar("tracing") as bar:
         made = planned.render(progress=bar)
     saved = save(

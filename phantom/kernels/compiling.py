@@ -9,11 +9,14 @@ from __future__ import annotations
 import atexit
 import hashlib
 import os
+import pkgutil
+import platform
 import shutil
 import stat
 import tempfile
 from collections.abc import Callable
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -81,3 +84,36 @@ def kernel(function: Kernel) -> Kernel:
     finally:
         settings.CACHE_DIR = before
     return cast(Kernel, compiled)
+
+
+def _marker() -> Path:
+    """Return the file that says that every kernel is compiled for this processor and numba."""
+    codegen: Any = import_module("numba.core.codegen")
+    target = (platform.machine(), codegen.get_host_cpu_features())
+    versions = (numba.__version__, platform.python_version())
+    digest = hashlib.sha256(repr((target, versions)).encode()).hexdigest()
+    return Path(cache_folder()) / f"complete-{digest[:16]}"
+
+
+def complete() -> bool:
+    """Tell whether every kernel was compiled before, so that it only has to be loaded."""
+    return _marker().exists()
+
+
+def mark_complete() -> None:
+    """Note that every kernel is compiled."""
+    _marker().touch()
+
+
+def compiled_so_far() -> tuple[int, int]:
+    """Return how many kernels lie compiled on disk, and how many there are in all."""
+    kernels = 0
+    for module in pkgutil.iter_modules([str(Path(__file__).parent)]):
+        found = import_module(f"{__package__}.{module.name}")
+        kernels += sum(
+            hasattr(member, "py_func") and member.__module__ == found.__name__
+            for member in vars(found).values()
+        )
+    python = "".join(platform.python_version_tuple()[:2])
+    on_disk = sum(1 for _ in Path(cache_folder()).rglob(f"*.py{python}.nbi"))
+    return min(on_disk, kernels), kernels

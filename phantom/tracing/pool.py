@@ -82,9 +82,11 @@ def warm() -> None:
     """Compile every kernel, or load it from the cache: one small trace of each kind."""
     import numpy as np
 
+    from phantom.kernels.compiling import mark_complete
     from phantom.scene import load
+    from phantom.tracing.points import materials_at
     from phantom.tracing.raster import raster
-    from phantom.tracing.rays import intervals
+    from phantom.tracing.rays import intervals, path_lengths
 
     phantom = load(
         {
@@ -104,4 +106,8 @@ def warm() -> None:
         columns=1,
         rows=1,
     )
-    intervals(phantom, np.array([[0.0, 0.0, -9.0]]), np.array([[0.0, 0.0, 1.0]]))
+    origin, along = np.array([[0.0, 0.0, -9.0]]), np.array([[0.0, 0.0, 1.0]])
+    intervals(phantom, origin, along)
+    path_lengths(phantom, origin, along)
+    materials_at(phantom, origin)
+    mark_complete()
