@@ -54,6 +54,9 @@ tube, and the usual filters of mammography."""
 LARGEST_FILTER_MM: Final = 10_000.0
 """Thickest filter; metres of it are of air."""
 
+LEAST_LEFT: Final = 1e-12
+"""Least share of the anode's photons that filters may leave."""
+
 FINE_KVP: Final = 50.0
 """Up to this voltage images are summed over the bins of the tables, above it over 1 keV."""
 
@@ -69,7 +72,7 @@ class Beam(Asked):
     """A beam of one photon energy, or of a tube.
 
     What is left out is filled in: ``energy_kev`` if there is no ``kvp``, ``anode`` and
-    ``filtration_mm`` if there is; ``model_fields_set`` still tells what was said.
+    ``filtration_mm`` if there is.
     """
 
     place: ClassVar[str] = "/beam"
@@ -140,7 +143,18 @@ class Beam(Asked):
             self._fill(anode=DEFAULT_ANODE)
             assert self.anode is not None
             self._fill(filtration_mm=dict(DEFAULT_FILTRATION_MM[self.anode]))
+            self._check_that_something_is_left()
         return self
+
+    def _check_that_something_is_left(self) -> None:
+        """Refuse filters behind which there is no beam."""
+        assert self.kvp is not None
+        assert self.anode is not None
+        whole = anode_spectrum(self.anode, self.kvp).photons_per_mm2_mas_at_1m.sum()
+        left = self.spectrum().photons_per_mm2_mas_at_1m.sum() / whole
+        if left < LEAST_LEFT:
+            message = f"found filters that let {left:.1g} of the photons through"
+            refuse("no_beam", (("filtration_mm",), f"{message}; expected {LEAST_LEFT:g} or more"))
 
     def _fill(self, **values: object) -> None:
         """Put in what was left out; it does not count among what was said."""

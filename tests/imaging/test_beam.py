@@ -80,6 +80,10 @@ def test_what_is_left_out_is_filled_in_and_not_counted_as_said() -> None:
             {"kvp": 70, "filtration_mm": {"copper": -1}},
             ("/beam/filtration_mm/copper", "out_of_range"),
         ),
+        (
+            {"kvp": 70, "filtration_mm": {"lead": 50}},
+            ("/beam/filtration_mm", "no_beam"),
+        ),
     ],
 )
 def test_a_tube_that_cannot_be_is_refused(fields: dict[str, Any], problem: tuple[str, str]) -> None:
