@@ -72,13 +72,13 @@ def many_tubes(count):
 def bent_tube(waves):
     """One tube whose axis swings to and fro: more swings, more segments."""
     z = np.linspace(-120, 120, 8 * waves + 1)
-    x = 25.0 / waves**2 * np.sin(2 * np.pi * waves * (z + 120) / 240)
+    x = 25.0 / waves**1.5 * np.sin(2 * np.pi * waves * (z + 120) / 240)
     solid = {
         "type": "generalized_cylinder",
         "name": "tube",
         "material": "bone",
         "axis": {"type": "spline", "points": np.stack([x, z, 0 * z], axis=1).tolist()},
-        "contour": {"type": "circle", "radius": 8.0},
+        "contour": {"type": "circle", "radius": 4.0},
     }
     return _bones([solid])
 
