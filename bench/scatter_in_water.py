@@ -8,7 +8,8 @@ the cross sections of xraylib.
 Prints, for each energy and thickness: photons that leave the far side after one and after more
 scatterings, over the photons that were never scattered; the energy they keep; and the width a of
 ``(1 + r²/a²)^-3``, fitted to where those scattered more than once arrive, on the far side and 200
-mm behind it. With ``table`` the rows are those of ``phantom/imaging/detection/multiple.py``.
+mm behind it; and for one slab what arrives inside rings. With ``table`` the rows are those of
+``phantom/imaging/detection/multiple.py``.
 
     uv run python bench/scatter_in_water.py [histories] [table]
 """
@@ -56,7 +57,7 @@ def follow(histories, energy0, thickness, gaps, tabs, radii, seed):
     np.random.seed(seed)
     out = np.zeros(2)
     energy_out = np.zeros(2)
-    rings = np.zeros((len(gaps), len(radii)))
+    rings = np.zeros((2, len(gaps), len(radii)))
     for _ in range(histories):
         x, y, z, u, v, w = 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
         energy, weight, count = energy0, 1.0, 0
@@ -84,8 +85,8 @@ def follow(histories, energy0, thickness, gaps, tabs, radii, seed):
                     back = (thickness + gaps[g] - z) / w
                     radius = math.hypot(x + u * back, y + v * back)
                     for k in range(len(radii)):
-                        if kind == 1 and radius < radii[k]:
-                            rings[g, k] += weight
+                        if radius < radii[k]:
+                            rings[kind, g, k] += weight
                 break
             weight *= (mu_c + mu_r) / mu
             if weight < 1e-6 or energy < 8.5:
@@ -109,7 +110,9 @@ def follow(histories, energy0, thickness, gaps, tabs, radii, seed):
                 nv = v * cosine + (v * w * a + u * b) / side
                 u, v, w = nu, nv, w * cosine - side * a
             count += 1
-    return out / histories, energy_out / out, rings / out[1]
+    rings[0] /= out[0]
+    rings[1] /= out[1]
+    return out / histories, energy_out / out, rings
 
 
 def width_mm(radii: np.ndarray, shares: np.ndarray) -> float:
@@ -135,7 +138,7 @@ def main() -> None:
             if primary > 1e-4:
                 gaps = np.array([0.0, 200.0])
                 out, kept, rings = follow(histories, energy, thickness, gaps, tabs, radii, 1)
-                near, far = (width_mm(radii, shares) for shares in rings)
+                near, far = (width_mm(radii, shares) for shares in rings[1])
                 found = (out[1] / out[0], kept[1], near, (far - near) / 200)
             # Hardly anything passes unscattered: the last thickness that was followed stands in.
             row.append("({:.3f}, {:.3f}, {:.1f}, {:.2f})".format(*found))
@@ -146,6 +149,11 @@ def main() -> None:
                 )
         if as_table:
             print(f"    ({', '.join(row)}),  # {energy:.0f} keV")
+    if not as_table:
+        _, _, rings = follow(histories, 100.0, 100.0, np.array([50.0]), tabs, radii, 1)
+        print("100 keV, 100 mm, 50 mm behind: radius, inside it scattered once, more")
+        for radius, once, more in zip(radii, rings[0, 0], rings[1, 0], strict=True):
+            print(f"{radius:5.0f} {once:.4f} {more:.4f}")
 
 
 if __name__ == "__main__":

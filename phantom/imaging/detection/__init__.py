@@ -5,7 +5,7 @@ from phantom.imaging.detection.chain import Exposed, expose, traced_window
 from phantom.imaging.detection.draws import ELECTRONICS, QUANTA, NoiseKey
 from phantom.imaging.detection.focal_spot import source_points
 from phantom.imaging.detection.receptor import Absorber, Blur, DetectorModel, Digitizer
-from phantom.imaging.detection.scatter import scatter_lattice
+from phantom.imaging.detection.scatter import air_gap_mm, scatter_lattice
 from phantom.imaging.detection.window import Lattice, Window, lattice
 
 __all__ = [
@@ -23,6 +23,7 @@ __all__ = [
     "NoiseKey",
     "Scatter",
     "Window",
+    "air_gap_mm",
     "expose",
     "lattice",
     "scatter_lattice",

@@ -10,6 +10,7 @@ a Fourier transform of the image: a pixel depends on its neighbours alone, bit f
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
@@ -19,6 +20,7 @@ import numpy as np
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging.detection.receptor import Blur
 from phantom.imaging.view import FloatArray
+from phantom.tracing.pool import cut_bands, run_bands
 
 TRUNCATION: Final = 1.5e-3
 """Greatest error that cutting a kernel off leaves in its MTF, up to nine tenths of the Nyquist
@@ -116,7 +118,14 @@ def halo(blur: Blur | None, pitch_xy_mm: tuple[float, float]) -> tuple[int, int]
     return max(len(p.down) // 2 for p in found), max(len(p.across) // 2 for p in found)
 
 
-def blurred(image: FloatArray, blur: Blur, pitch_xy_mm: tuple[float, float]) -> FloatArray:
+def blurred(
+    image: FloatArray,
+    blur: Blur,
+    pitch_xy_mm: tuple[float, float],
+    *,
+    workers: int | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> FloatArray:
     """Return the blurred image, mirrored at its edges.
 
     Pixels nearer than :func:`halo` to an edge that is not the detector's are not what the whole
@@ -124,8 +133,17 @@ def blurred(image: FloatArray, blur: Blur, pitch_xy_mm: tuple[float, float]) -> 
     """
     from scipy.ndimage import correlate1d
 
+    found = parts(blur, pitch_xy_mm)
+    layers: list[FloatArray] = [image] * len(found)
+
+    def one(first: int, last: int) -> None:
+        for at in range(first, last):
+            for axis, taps in enumerate((found[at].down, found[at].across)):
+                if len(taps) > 1:
+                    layers[at] = correlate1d(layers[at], taps, axis=axis, mode="reflect")
+
+    run_bands(one, cut_bands(len(found), 1), workers=workers, cancelled=cancelled)
     out = np.zeros(image.shape)
-    for part in parts(blur, pitch_xy_mm):
-        down = correlate1d(image, part.down, axis=0, mode="reflect")
-        out += part.weight * correlate1d(down, part.across, axis=1, mode="reflect")
+    for part, layer in zip(found, layers, strict=True):
+        out += part.weight * layer
     return out

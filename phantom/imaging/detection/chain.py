@@ -5,11 +5,12 @@ blur → electronic noise → flat field → saturation, gain and bits.
 
 What the caller traces first::
 
-    window = Window.whole(view.detector)
+    window = Window.whole(view.detector)        # or any part of it
     traced = traced_window(view, acquisition, window)
     rays = lattice(view.detector, traced, acquisition.samples_per_pixel)
     for weight, source in source_points(view, acquisition.focal_spot): ...trace `rays`...
-    field = scatter_lattice(view.detector)          # only for scatter: trace it from view.source
+    field = scatter_lattice(view.detector)      # only for scatter: trace it from view.source
+    gap_mm = air_gap_mm(view, phantom.bounds)   # only for scatter
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from phantom.imaging.detection.primary import primary
 from phantom.imaging.detection.quanta import compound, per_bin
 from phantom.imaging.detection.scatter import ScatterField, interpolated, scatter_field
 from phantom.imaging.detection.scintillator import response
-from phantom.imaging.detection.stages import stages
+from phantom.imaging.detection.stages import stages, without_effect
 from phantom.imaging.detection.window import Window
 from phantom.imaging.spectrum import Spectrum
 from phantom.imaging.view import FloatArray, View
@@ -57,6 +58,8 @@ class Exposed:
         1 / total transmission); None without a grid.
     stages
         Every stage that was applied, in order, with its values.
+    warnings
+        What was asked for and had no effect.
     """
 
     signal: FloatArray
@@ -66,6 +69,7 @@ class Exposed:
     exposure_index: float
     bucky_factor: float | None
     stages: tuple[dict[str, Any], ...]
+    warnings: tuple[str, ...]
 
 
 def traced_window(view: View, acquisition: Acquisition, window: Window) -> Window:
@@ -84,7 +88,7 @@ def expose(
     key: NoiseKey,
     window: Window | None = None,
     field_path_lengths: FloatArray | None = None,
-    air_gap_mm: float = 0.0,
+    default_gap_mm: float = 0.0,
     workers: int | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Exposed:
@@ -108,8 +112,8 @@ def expose(
         Which pixels are wanted; all of them by default.
     field_path_lengths
         For scatter alone: (rows, columns, M) mm over :func:`scatter_lattice`.
-    air_gap_mm
-        For scatter, where the acquisition leaves it to the caller.
+    default_gap_mm
+        For scatter, where the acquisition does not say; see :func:`air_gap_mm`.
     workers, cancelled
         As in :func:`phantom.tracing.pool.run_bands`.
 
@@ -152,7 +156,7 @@ def expose(
     field: ScatterField | None = None
     if acquisition.scatter is not None or grid is not None:
         field = scatter_field(
-            field_path_lengths, attenuation, energies, photons, acquisition, view, air_gap_mm
+            field_path_lengths, attenuation, energies, photons, acquisition, view, default_gap_mm
         )
     if field is not None and field.photons is not None:
         late = response(model, field.energies_kev)
@@ -174,7 +178,7 @@ def expose(
     else:
         signal = expected[1]
     if model.blur is not None:
-        signal = blurred(signal, model.blur, pitch)
+        signal = blurred(signal, model.blur, pitch, workers=workers, cancelled=cancelled)
     first_row, first_column = (
         wanted.first_row - traced.first_row,
         wanted.first_column - traced.first_column,
@@ -198,4 +202,5 @@ def expose(
         exposure_index=INDEX_PER_UGY * kerma,
         bucky_factor=None if field is None else field.bucky_factor,
         stages=stages(acquisition, view, key, kerma, field),
+        warnings=without_effect(acquisition, view),
     )

@@ -14,6 +14,7 @@ from typing import Final
 
 import numpy as np
 
+from phantom.imaging.camera import box_corners, projection
 from phantom.imaging.detection.acquisition import Acquisition
 from phantom.imaging.detection.multiple import THICKEST_MM
 from phantom.imaging.detection.slab import amounts, kernel_per_mm2, water
@@ -75,6 +76,16 @@ def scatter_lattice(detector: Detector) -> Lattice:
     return Lattice(first, right * step_x, down * step_y, columns, rows)
 
 
+def air_gap_mm(view: View, bounds: FloatArray) -> float:
+    """Return how far before the detector a bounding box ends, in mm; 0 where it reaches it.
+
+    ``bounds`` (2, 3) are the least and the greatest coordinates.
+    """
+    camera = projection(view)
+    plane = 0.0 if camera.distance_mm is None else camera.distance_mm
+    return max(plane - float(camera.depth_mm(box_corners(bounds)).max()), 0.0)
+
+
 def scatter_field(
     path_lengths: FloatArray | None,
     attenuation_per_mm: FloatArray,
@@ -82,7 +93,7 @@ def scatter_field(
     photons: FloatArray,
     acquisition: Acquisition,
     view: View,
-    air_gap_mm: float,
+    default_gap_mm: float,
 ) -> ScatterField:
     """Return the scatter of an exposure.
 
@@ -96,8 +107,8 @@ def scatter_field(
         (K,): the bins, and the open field's photons a pixel.
     acquisition, view
         Scatter, grid, and the field.
-    air_gap_mm
-        Where the acquisition has none.
+    default_gap_mm
+        From the object to the detector, where the acquisition does not say.
     """
     grid = acquisition.grid
     through = (1.0, 1.0) if grid is None else (grid.primary_transmission, grid.scatter_transmission)
@@ -106,7 +117,7 @@ def scatter_field(
     if path_lengths is None:
         raise ValueError("scatter needs the path lengths over scatter_lattice")
     asked = acquisition.scatter.air_gap_mm
-    gap_mm = air_gap_mm if asked is None else asked
+    gap_mm = default_gap_mm if asked is None else asked
 
     # Beer's law on the coarse lattice, and how thick the object seems.
     depth = np.einsum("km,rcm->krc", attenuation_per_mm, path_lengths)
@@ -127,7 +138,7 @@ def scatter_field(
     energy = np.zeros((len(energies_kev), _NODES, 2))
     for k, e in enumerate(energies_kev.tolist()):
         amount[k], energy[k] = amounts(e, nodes)
-    spread = np.zeros((len(energies_kev), rows, columns))
+    spread = np.zeros((len(energies_kev), shape[0], shape[1] // 2 + 1), dtype=np.complex128)
     weight = np.zeros(len(energies_kev))
     carried = np.zeros(len(energies_kev))
     for n in range(1, _NODES):
@@ -144,9 +155,8 @@ def scatter_field(
                 mean_kev, float(nodes[n]), gap_mm, order, rows, columns, step_y, step_x
             )
             product = images * np.fft.rfft2(kernel)
-            found = np.fft.irfft2(product, shape)[:, :rows, :columns]
-            spread += amount[:, n, order, None, None] * found
-    scattered = np.maximum(spread, 0.0)
+            spread += amount[:, n, order, None, None] * product
+    scattered = np.maximum(np.fft.irfft2(spread, shape)[:, :rows, :columns], 0.0)
     late = np.where(weight > 0, carried / np.maximum(weight, 1e-300), energies_kev)
     primary, scatter = float(passed.sum()), float(scattered.sum())
     behind = through[0] * primary + through[1] * scatter

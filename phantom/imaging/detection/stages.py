@@ -98,3 +98,13 @@ def stages(
     if model.digitizer is not None:
         listed.append({"stage": "digitizer", **model.digitizer.model_dump(mode="json")})
     return tuple(listed)
+
+
+def without_effect(acquisition: Acquisition, view: View) -> tuple[str, ...]:
+    """Return what was asked for and changes nothing, a sentence each."""
+    found = []
+    if view.source is None and acquisition.focal_spot is not None:
+        found.append("the focal spot has no effect: a parallel beam has none")
+    if acquisition.grid is not None and acquisition.scatter is None:
+        found.append("the grid's scatter transmission has no effect: there is no scatter")
+    return tuple(found)

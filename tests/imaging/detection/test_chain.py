@@ -31,6 +31,7 @@ from phantom.imaging.detection import (
 )
 from phantom.imaging.detection.falloff import falloff
 from phantom.imaging.detection.kerma import photons_per_mm2
+from phantom.imaging.detection.stages import without_effect
 from phantom.imaging.detection.window import Lattice
 from phantom.imaging.spectrum import Spectrum, monochromatic, relative
 from phantom.imaging.view import Detector, FloatArray, View
@@ -256,3 +257,14 @@ def test_both_eyes_have_their_own_noise(balls: Phantom) -> None:
 def test_a_cancelled_exposure_stops(balls: Phantom) -> None:
     with pytest.raises(CancelledError):
         exposed(balls, Acquisition(), cancelled=lambda: True)
+
+
+def test_what_has_no_effect_is_said(balls: Phantom) -> None:
+    grid = Grid(primary_transmission=0.7, scatter_transmission=0.1)
+    found = exposed(balls, Acquisition(grid=grid))
+    assert found.warnings == ("the grid's scatter transmission has no effect: there is no scatter",)
+    assert exposed(balls, EVERYTHING).warnings == ()
+    view = View(source=None, direction=(0, 1, 0), detector=VIEW.detector)
+    spot = Acquisition(focal_spot=FocalSpot(size_mm=(1, 1)))
+    assert source_points(view, spot.focal_spot) == [(1.0, None)]
+    assert without_effect(spot, view) == ("the focal spot has no effect: a parallel beam has none",)
