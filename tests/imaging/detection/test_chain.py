@@ -268,3 +268,18 @@ def test_what_has_no_effect_is_said(balls: Phantom) -> None:
     spot = Acquisition(focal_spot=FocalSpot(size_mm=(1, 1)))
     assert source_points(view, spot.focal_spot) == [(1.0, None)]
     assert without_effect(spot, view) == ("the focal spot has no effect: a parallel beam has none",)
+
+
+@pytest.mark.parametrize("noise", ["compound", "per_bin"])
+def test_noise_lies_about_what_is_expected_scatter_and_all(balls: Phantom, noise: str) -> None:
+    model = EVERYTHING.detector.model_copy(
+        update={"blur": None, "electronic_noise": 0.0, "digitizer": None}
+    )
+    changes: dict[str, Any] = {"detector": model, "falloff": "none", "flat_field": False}
+    expected = exposed(balls, EVERYTHING.model_copy(update={**changes, "quantum_noise": "off"}))
+    found = exposed(balls, EVERYTHING.model_copy(update={**changes, "quantum_noise": noise}))
+    # Variance over mean is E[g²]/(E[g] A_S) of one photon: for this beam, hardened behind the
+    # balls, between 50/0.9 and 75/0.9 keV.
+    off = found.signal - expected.signal
+    assert abs(off.mean()) < 4.5 * off.std() / np.sqrt(off.size)
+    assert 50 / 0.9 < (off**2 / expected.signal).mean() < 75 / 0.9
