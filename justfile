@@ -30,3 +30,8 @@ compare:
 # Redraw every picture of the README and the docs.
 figures:
     uv run python docs/make_figures.py
+
+# Measure everything, beside other programs, and fill docs/performance.md; wants an idle machine.
+bench:
+    uv run --group bench python -m bench.speed --write
+    uv run python -m bench.scaling
