@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom import document as doc
-from phantom.geometry.contours import Contour, check_simple, plane_outline, star
+from phantom.geometry.contours import Contour, plane_outline, star
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.simple import check_simple
 from phantom.geometry.splines import Cubics, not_a_knot
 from phantom.geometry.star import chart_rays, kinks, monotone_cells, radii
 
@@ -128,9 +129,8 @@ def morph(sweep: doc.MorphSweep) -> Morph:
         path = f"/sweep/contours/{index}"
         try:
             outline = plane_outline(section.contour)
+            check_simple(outline)
             placed = star(outline, np.zeros(2))
-            if placed is None:
-                check_simple(outline)
         except RefusalError as refusal:
             problem = refusal.problem
             raise RefusalError(path + problem.path, problem.kind, problem.message) from None

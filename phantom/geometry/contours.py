@@ -23,6 +23,7 @@ from phantom.geometry.outlines import (
 )
 from phantom.geometry.partition import star_parts
 from phantom.geometry.refusal import RefusalError
+from phantom.geometry.simple import check_simple
 from phantom.geometry.splines import periodic
 from phantom.geometry.vectors import plane_cross
 
@@ -206,19 +207,18 @@ def _rounded(points: Floats, radius: float) -> Outline:
 
 def _stars(outline: Outline) -> tuple[Contour, ...]:
     """Return the outline as one star-shaped contour, or as the fewest parts a few tries give."""
+    check_simple(outline)
     one = star(outline, None, _PART_MARGIN)
     if one is not None:
         return (one,)
-    check_simple(outline)
-    parts = star_parts(outline, lambda part: star(part, None, _PART_MARGIN) is not None)
+    parts = star_parts(outline, lambda part: star(part, None, _PART_MARGIN))
     if parts is None:
         raise RefusalError(
             "/contour",
             "contour_detail",
             "the contour cannot be cut into star-shaped parts; expected a simpler one",
         )
-    found = [star(part) for part in parts]
-    return tuple(part for part in found if part is not None)
+    return tuple(parts)
 
 
 def star(
@@ -278,26 +278,3 @@ def _deepest(points: Floats, edges: Floats, size: float) -> Floats:
     span = [(-size + points[:, k].min(), size + points[:, k].max()) for k in range(2)]
     answer = linprog([0, 0, -1], A_ub=rows, b_ub=limits, bounds=[*span, (-2 * size, size)])
     return np.asarray(answer.x, dtype=np.float64)[:2]
-
-
-def check_simple(outline: Outline) -> None:
-    """Refuse an outline that crosses itself, with the place."""
-    # Away from even fractions, where a figure of eight likes to cross.
-    points = outline_samples(outline, 1024, 0.382)[0]
-    a, b = points, np.roll(points, -1, axis=0)
-    d = b - a
-    side_a = plane_cross(d[:, None], a[None] - a[:, None])
-    side_b = plane_cross(d[:, None], b[None] - a[:, None])
-    # Stretches of one straight edge lie on one line: rounding must not make them cross.
-    least = 1e-12 * float(np.ptp(points, axis=0).max()) * np.linalg.norm(d, axis=1)[:, None]
-    side_a = np.where(np.abs(side_a) <= least, 0.0, side_a)
-    side_b = np.where(np.abs(side_b) <= least, 0.0, side_b)
-    crossing = (side_a * side_b < 0) & (side_a.T * side_b.T < 0)
-    if crossing.any():
-        i, j = np.argwhere(crossing)[0]
-        raise RefusalError(
-            "/contour",
-            "crossing_contour",
-            f"the contour crosses itself near ({a[i][0]:.4g}, {a[i][1]:.4g}) mm, at "
-            f"{i / len(a):.3f} and {j / len(a):.3f} of its length; expected a simple closed curve",
-        )

@@ -7,7 +7,10 @@ surface, so that no ray slips between two of them; a ray's intervals are united 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +19,7 @@ from phantom.geometry.outlines import Outline
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+Star = TypeVar("Star")
 
 OVERLAP = 2e-9
 """Parts reach over the line that cuts them by this share of the outline's size."""
@@ -33,14 +37,6 @@ class Arc:
     end: float
     points: Floats  # (2, 2): where it begins and ends
 
-    def sampled(self, outline: Outline, count: int) -> tuple[Floats, Floats]:
-        """Return parameters and points along it, both ends included."""
-        s = np.linspace(0.0, 1.0, count)
-        if self.piece < 0:
-            return s, self.points[0] + s[:, None] * (self.points[1] - self.points[0])
-        v = self.start + s * (self.end - self.start)
-        return v, outline.derivatives(v, np.full(count, self.piece, dtype=np.intp))[0]
-
 
 Loop = tuple[Arc, ...]
 
@@ -57,20 +53,33 @@ class LoopOutline:
         """The ends of the arcs."""
         return np.arange(len(self.loop) + 1.0)
 
+    @cached_property
+    def _columns(self) -> tuple[NDArray[np.bool_], Floats, Ints, Floats, Floats]:
+        """Of each arc: whether it is straight, its ends, its piece, where it starts, its length."""
+        loop = self.loop
+        return (
+            np.array([arc.piece < 0 for arc in loop]),
+            np.array([arc.points for arc in loop]),
+            np.array([max(arc.piece, 0) for arc in loop], dtype=np.intp),
+            np.array([arc.start for arc in loop]),
+            np.array([arc.end - arc.start for arc in loop]),
+        )
+
     def derivatives(self, v: Floats, piece: Ints) -> Floats:
         """Evaluate each arc on its own stretch."""
-        local = (v - piece)[:, None]
-        straight = np.array([arc.piece < 0 for arc in self.loop])[piece]
-        ends = np.array([arc.points for arc in self.loop])[piece]
-        owner = np.array([max(arc.piece, 0) for arc in self.loop], dtype=np.intp)[piece]
-        start = np.array([arc.start for arc in self.loop])[piece]
-        rate = np.array([arc.end - arc.start for arc in self.loop])[piece]
-        edge = ends[:, 1] - ends[:, 0]
-        along = np.stack([ends[:, 0] + local * edge, edge, np.zeros_like(edge)])
-        parameter = np.where(straight, self.outline.breaks[owner], start + local[:, 0] * rate)
-        curved = self.outline.derivatives(parameter, owner)
-        curved = curved * np.stack([np.ones_like(rate), rate, rate**2])[..., None]
-        return np.asarray(np.where(straight[:, None], along, curved))
+        straights, all_ends, owners, starts, rates = self._columns
+        straight, ends, owner = straights[piece], all_ends[piece], owners[piece]
+        start, rate = starts[piece], rates[piece]
+        local = v - piece
+        parameter = np.where(straight, self.outline.breaks[owner], start + local * rate)
+        found = self.outline.derivatives(parameter, owner)
+        found[1] *= rate[:, None]
+        found[2] *= (rate**2)[:, None]
+        if straight.any():
+            edge = ends[straight, 1] - ends[straight, 0]
+            found[0, straight] = ends[straight, 0] + local[straight, None] * edge
+            found[1, straight], found[2, straight] = edge, 0.0
+        return found
 
 
 def whole(outline: Outline) -> Loop:
@@ -85,17 +94,13 @@ def whole(outline: Outline) -> Loop:
     )
 
 
-def star_parts(outline: Outline, is_star: object) -> list[Outline] | None:
-    """Cut an outline into parts for which ``is_star(part)`` holds; None where there are too many.
-
-    ``is_star`` takes an outline and returns a bool.
-    """
-    assert callable(is_star)
+def star_parts(outline: Outline, as_star: Callable[[Outline], Star | None]) -> list[Star] | None:
+    """Cut an outline into parts of which ``as_star`` makes something; None where that fails."""
     waiting, done = [whole(outline)], []
     while waiting:
         loop = waiting.pop()
-        part = LoopOutline(outline, loop)
-        if is_star(part):
+        part = as_star(LoopOutline(outline, loop))
+        if part is not None:
             done.append(part)
             continue
         if len(waiting) + len(done) >= _MOST_PARTS:
@@ -104,14 +109,15 @@ def star_parts(outline: Outline, is_star: object) -> list[Outline] | None:
         if halves is None:
             return None
         waiting += halves
-    return list(done)
+    return done
 
 
 def _halved(outline: Outline, loop: Loop) -> list[Loop] | None:
     """Cut a loop in two along the shortest chord that leaves a fair part on both sides."""
-    sampled = [arc.sampled(outline, _SAMPLES) for arc in loop]
-    points = np.concatenate([p[:-1] for _, p in sampled])
-    owner = np.repeat(np.arange(len(loop)), [len(p) - 1 for _, p in sampled])
+    part = LoopOutline(outline, loop)
+    owner = np.repeat(np.arange(len(loop)), _SAMPLES)
+    v = np.asarray(owner + np.tile(np.arange(_SAMPLES) / _SAMPLES, len(loop)), dtype=np.float64)
+    points = part.derivatives(v, owner)[0]
     area = abs(_area(points))
     spread = np.cov(points.T)
     long = np.linalg.eigh(spread)[1][:, 1]
@@ -134,16 +140,8 @@ def _halved(outline: Outline, loop: Loop) -> list[Loop] | None:
     if best is None:
         return None
     _, normal, level, ends = best
-    starts = np.concatenate([[0], np.cumsum([len(p) - 1 for _, p in sampled])])
-    brackets = []
-    for k in ends:
-        v = sampled[owner[k]][0]
-        local = k - starts[owner[k]]
-        rising = points[k] @ normal < level
-        brackets.append((int(owner[k]), float(v[local]), float(v[local + 1]), bool(rising)))
-    return _cut(
-        outline, loop, brackets, normal, level, OVERLAP * float(np.ptp(points, axis=0).max())
-    )
+    brackets = [(int(owner[k]), float(v[k]), bool(points[k] @ normal < level)) for k in ends]
+    return _cut(part, brackets, normal, level, OVERLAP * float(np.ptp(points, axis=0).max()))
 
 
 def _chords(
@@ -176,9 +174,8 @@ def _area(points: Floats) -> float:
 
 
 def _cut(
-    outline: Outline,
-    loop: Loop,
-    brackets: list[tuple[int, float, float, bool]],
+    part: LoopOutline,
+    brackets: list[tuple[int, float, bool]],
     normal: Floats,
     level: float,
     beyond: float,
@@ -187,35 +184,33 @@ def _cut(
     halves = []
     for first, last in ((0, 1), (1, 0)):
         # Where the outline rises through the line, the part that follows lies above it.
-        at = level - beyond if brackets[first][3] else level + beyond
+        at = level - beyond if brackets[first][2] else level + beyond
         ends = []
         for k in (first, last):
-            index, low, high, _ = brackets[k]
-            ends.append((index, *_meet(outline, loop[index], low, high, normal, at)))
-        halves.append(_side(loop, ends[0], ends[1]))
+            index, v, _ = brackets[k]
+            ends.append((index, *_meet(part, index, v, normal, at)))
+        halves.append(_side(part.loop, ends[0], ends[1]))
     return halves
 
 
 def _meet(
-    outline: Outline, arc: Arc, low: float, high: float, normal: Floats, level: float
+    part: LoopOutline, index: int, v: float, normal: Floats, level: float
 ) -> tuple[float, Floats]:
-    """Find where an arc meets a line, by bisection."""
+    """Find where an arc meets a line within a sample's stretch; its own parameter, and the point.
 
-    def at(v: float) -> Floats:
-        if arc.piece < 0:
-            return np.asarray(arc.points[0] + v * (arc.points[1] - arc.points[0]))
-        return np.asarray(
-            outline.derivatives(np.array([v]), np.array([arc.piece], dtype=np.intp))[0][0]
-        )
-
-    sign = at(low) @ normal - level
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        if (at(middle) @ normal - level) * sign > 0:
-            low = middle
-        else:
-            high = middle
-    return low, at(low)
+    The stretch is divided ever finer at the first change of side.
+    """
+    low, high = v, v + 1.0 / _SAMPLES
+    for _ in range(14):
+        near = np.linspace(low, high, 17)
+        heights = part.derivatives(near, np.full(17, index, dtype=np.intp))[0] @ normal - level
+        changed = np.flatnonzero(heights * heights[0] <= 0)
+        k = max(int(changed[0]), 1) if len(changed) else 16
+        low, high = float(near[k - 1]), float(near[k])
+    point = part.derivatives(np.array([low]), np.array([index], dtype=np.intp))[0][0]
+    arc = part.loop[index]
+    local = low - index
+    return (local if arc.piece < 0 else arc.start + local * (arc.end - arc.start)), point
 
 
 def _side(loop: Loop, one: tuple[int, float, Floats], two: tuple[int, float, Floats]) -> Loop:

@@ -16,6 +16,7 @@ from phantom.geometry.outlines import Outline
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
+_FREELY = 5  # steps of Newton's that may leave the bracket a little
 _TURNS = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
 
 
@@ -77,13 +78,16 @@ def _solve(outline: Outline, T: Floats, piece: Ints) -> Floats:
     low, high, width = first, last, last - first
     v = 0.5 * (low + high)
     found, left = v.copy(), np.arange(len(v))
-    for _ in range(80):
+    for tried in range(80):
         value = outline.derivatives(v, piece)
         f = np.einsum("ni,ni->n", value[0], normal)
         slope = np.einsum("ni,ni->n", value[1], normal)
         low, high = np.where(f < 0, v, low), np.where(f < 0, high, v)
         newton = v - f / np.where(slope != 0, slope, 1.0)
-        usable = (slope > 0) & (newton >= low) & (newton <= high)
+        # A root at the bracket's end is met from outside, too: it is tried before halves are.
+        beyond = 0.1 * (high - low) if tried < _FREELY else 0.0
+        usable = (slope > 0) & (newton >= low - beyond) & (newton <= high + beyond)
+        newton = np.where(usable, np.clip(newton, low, high), newton)
         # Near the root Newton is right to rounding, even where the bracket's end is the root.
         settled = (slope > 0) & (np.abs(newton - v) <= 1e-6 * width)
         step = np.where(usable, newton, 0.5 * (low + high))

@@ -37,3 +37,6 @@ STRAIGHT = 1e-7
 
 MAX_SEGMENTS = 4096
 """A generalized cylinder that needs more segments than this is refused with the figure."""
+
+CONTOUR_GAP_MM = 1e-6
+"""A contour whose stretches come nearer to one another than this crosses or touches itself."""

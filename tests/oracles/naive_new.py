@@ -170,6 +170,10 @@ class MorphSection:
         radii = np.array([r(theta) for r in self.radii])
         return 1.05 * (self.blend(u) @ radii).max()
 
+    def least(self, u):
+        theta = np.linspace(0, 2 * np.pi, 500)
+        return (self.blend(u) @ np.array([r(theta) for r in self.radii])).min()
+
     def __call__(self, plane, u):
         theta = np.arctan2(plane[:, 1], plane[:, 0])
         radii = np.stack([r(theta) for r in self.radii], axis=1)
@@ -226,6 +230,39 @@ class Solid(cylinders.Solid):
         plane = np.stack([(y * n).sum(axis=1), (y * b).sum(axis=1)], axis=1)
         np.logical_or.at(out, who, self.section(plane, self._u(s)))
         return out
+
+    def is_none(self):
+        """Whether sections shrink to nothing, or reach the axis's centre of curvature, somewhere.
+
+        The second is looked for on grids of the plane, finer and finer about the deepest point.
+        """
+        if isinstance(self.section, MorphSection) and self.section.least(self._u(self.grid)) <= 0:
+            return True
+        size = self.far
+        s, x, y = np.unique(np.linspace(0, 1, 301)), 0.0, 0.0
+        for shrink in (1.0, 0.1, 0.02, 0.004):
+            step = size * shrink * np.linspace(-1, 1, 41)
+            grid = np.stack(np.meshgrid(s, x + step, y + step, indexing="ij"), axis=-1)
+            grid = grid.reshape(-1, 3)
+            depth = self._toward_centre(grid)
+            worst = int(np.argmax(depth))
+            if depth[worst] >= 1:
+                return True
+            s, x, y = grid[worst]
+            s = np.clip(s + shrink * np.linspace(-0.01, 0.01, 31), 0, 1)
+        return False
+
+    def _toward_centre(self, grid):
+        """(x - a) . a'' / |a'|^2 of points (s, x, y) of the sections, -inf outside them."""
+        depth = []
+        for s, x, y in (part.T for part in np.array_split(grid, max(1, len(grid) // 20_000))):
+            n = self.normal(s)
+            b = np.cross(self.axis.tangent(s), n)
+            away = x[:, None] * n + y[:, None] * b
+            reach = (away * self.axis(s, 2)).sum(axis=1) / (self.axis(s, 1) ** 2).sum(axis=1)
+            inside = self.section(np.stack([x, y], axis=1), self._u(s))
+            depth.append(np.where(inside, reach, -np.inf))
+        return np.concatenate(depth)
 
     def _u(self, s):
         return self.range[0] + s * (self.range[1] - self.range[0])
