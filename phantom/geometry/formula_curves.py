@@ -49,7 +49,9 @@ def check_values(formula: Formula, name: str, breaks: Floats, path: str) -> None
     bad = first_bad(values, u)
     if bad is not None:
         raise RefusalError(
-            path, "undefined", f"the formula has no finite value at {name} = {bad:.6g}"
+            path,
+            "undefined",
+            f"the formula has no finite value at {name} = {bad:.6g}; expected one at every {name}",
         )
     worst = int(np.argmax(np.abs(values)))
     if abs(values[worst]) > LARGEST_MM:

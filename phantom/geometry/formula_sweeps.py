@@ -171,7 +171,7 @@ def formula_sections(
         raise RefusalError(
             f"/sweep/forward/{axis}",
             "undefined",
-            f"the formula has no finite value at u = {u[n]:.6g}",
+            f"the formula has no finite value at u = {u[n]:.6g}; expected one at every u",
         )
     _check_inverse(sweep, sections, placed, u)
     _check_star(sections, placed, u)
