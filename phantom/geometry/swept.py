@@ -112,13 +112,18 @@ class ChangingShape:
     def hull(self, u: Floats, count: int) -> Hull:
         """Return what holds the section at each u."""
         points = self.points(u, count)
-        # The sagitta of the arc between two samples, from second differences; corners overdo it.
-        bends = np.roll(points, 1, axis=1) - 2 * points + np.roll(points, -1, axis=1)
-        return Hull(points, 0.25 * float(np.linalg.norm(bends, axis=-1).max()))
+        # Second differences tell how far it bulges from one sample to the next: an eighth of them
+        # where it is smooth, up to half of the larger one where a corner lies in between.
+        even = points[:, :count]
+        bends = np.roll(even, 1, axis=1) - 2 * even + np.roll(even, -1, axis=1)
+        return Hull(points, 0.65 * float(np.linalg.norm(bends, axis=-1).max()))
 
     def points(self, u: Floats, count: int) -> Floats:
-        """Return points of each section in unit coordinates, ``(n, count, 2)``."""
-        T = 8.0 * np.arange(count) / count
+        """Return points of each section in unit coordinates, ``(n, count', 2)``.
+
+        The first ``count`` are spread evenly, in order; the corners follow.
+        """
+        T = np.concatenate([8.0 * np.arange(count) / count, self.changing.corners(u[:1])[0]])
         rays = chart_rays(T)
         directions = rays / np.linalg.norm(rays, axis=1)[:, None]
         return np.asarray((self.changing.radii(T, u) / self.unit).T[..., None] * directions)

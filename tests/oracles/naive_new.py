@@ -164,15 +164,19 @@ class MorphSection:
         self.breaks = [stop["at"] for stop in sweep["contours"]]
         self.blend = CubicSpline(self.breaks, np.eye(len(self.breaks)), bc_type="not-a-knot")
         self.radii = [radius(stop["contour"]) for stop in sweep["contours"]]
+        self.inside = [inside(stop["contour"]) for stop in sweep["contours"]]
 
     def reach(self, u):
         theta = np.linspace(0, 2 * np.pi, 500)
         radii = np.array([r(theta) for r in self.radii])
         return 1.05 * (self.blend(u) @ radii).max()
 
-    def least(self, u):
+    def fails(self, u):
+        """Whether the origin is outside a contour, or the blended radius shrinks to nothing."""
+        if not all(test(np.zeros(1), np.zeros(1))[0] for test in self.inside):
+            return True
         theta = np.linspace(0, 2 * np.pi, 500)
-        return (self.blend(u) @ np.array([r(theta) for r in self.radii])).min()
+        return (self.blend(u) @ np.array([r(theta) for r in self.radii])).min() <= 0
 
     def __call__(self, plane, u):
         theta = np.arctan2(plane[:, 1], plane[:, 0])
@@ -232,11 +236,11 @@ class Solid(cylinders.Solid):
         return out
 
     def is_none(self):
-        """Whether sections shrink to nothing, or reach the axis's centre of curvature, somewhere.
+        """Whether sections are none, or reach the axis's centre of curvature, somewhere.
 
-        The second is looked for on grids of the plane, finer and finer about the deepest point.
+        The latter is looked for on grids of the plane, finer and finer about the deepest point.
         """
-        if isinstance(self.section, MorphSection) and self.section.least(self._u(self.grid)) <= 0:
+        if isinstance(self.section, MorphSection) and self.section.fails(self._u(self.grid)):
             return True
         size = self.far
         s, x, y = np.unique(np.linspace(0, 1, 301)), 0.0, 0.0

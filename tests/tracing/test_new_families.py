@@ -37,7 +37,8 @@ def drawn(rng, kinds):
             return tree, phantom.load(tree)
         except phantom.InvalidDocumentError as error:
             refusal = error
-        assert {p.kind for p in refusal.problems} <= {"local_overlap", "singular_sweep"}
+        kinds_told = {p.kind for p in refusal.problems}
+        assert kinds_told <= {"local_overlap", "singular_sweep", "not_star_shaped"}
         assert Solid(tree["solid"]).is_none(), (kinds, str(refusal))
 
 
@@ -90,6 +91,30 @@ def test_kinds_with_kinds(kinds):
     found = figures(kinds, 72, 20)
     assert found.hits > 0
     assert found.right(), found
+
+
+@pytest.mark.parametrize("turn_deg", [0, 0.9, 1.7, 3.1, 7.3])
+def test_the_tips_of_a_star_that_does_not_morph(turn_deg):
+    """Rays across a tip, wherever it points, have the chord of the wedge that it is."""
+    outer, inner, half = 20.0, 8.0, np.pi / 5
+    angle = half * np.arange(10) + np.radians(turn_deg)
+    radius = np.where(np.arange(10) % 2, inner, outer)
+    star = (radius * np.array([np.cos(angle), np.sin(angle)])).T.tolist()
+    contour = {"type": "polygon", "points": star, "corner_radius": 0}
+    line = {"type": "line", "start": [0, 0, 0], "end": [0, 0, 10]}
+    stops = [{"at": u, "contour": contour} for u in (0.0, 0.5, 1.0)]
+    sweep = {"type": "morph", "contours": stops}
+    leaf = {"type": "generalized_cylinder", "axis": line, "frame": {"up": [1, 0, 0]}}
+    shape = phantom.load(document({**leaf, "sweep": sweep}))
+    tips = angle[::2]
+    # b is t x n: the section's plane is x and y.
+    out = np.stack([np.cos(tips), np.sin(tips), 0 * tips], axis=1)
+    along = np.cross([0, 0, 1], out)
+    slope = inner * np.sin(half) / (outer - inner * np.cos(half))
+    for depth in (1e-3, 1e-2, 0.1):
+        origins = (outer - depth) * out - 50 * along + [0, 0, 5]
+        lengths = phantom.path_lengths(shape, origins, along)[:, 0]
+        assert lengths == pytest.approx(2 * depth * slope, abs=2e-7)
 
 
 @pytest.mark.nightly
