@@ -78,8 +78,9 @@ class Morph:
         return np.zeros((len(u), 2))
 
     def watched(self, start: Floats, end: Floats) -> Floats:
-        """Anywhere: nothing moves round."""
-        return EVENLY[None]
+        """Anywhere, and the joints of the contours' pieces: tips change most."""
+        joints = self.marks[:-1]
+        return np.concatenate([EVENLY, joints, np.nextafter(joints[1:], 0.0)])[None]
 
     def radii(self, T: Floats, u: Floats) -> Floats:
         """Blend the contours' own radii."""
