@@ -56,6 +56,8 @@ class Scene(NamedTuple):
     boxes: Floats  # (S, 3, 2)
     hessians: Floats  # (S, CELLS, CELLS, 6, 2) by cell along e1 and e2
     kinks: Floats  # (S, CELLS, CELLS, 3) jumps of the slope: up, down, growth per mm
+    hulls: Floats  # (S, 6, 2) what holds for all cells of a segment's Hessian
+    cornered: Ints  # (S,) whether any cell has a jump of the slope
     segment_table: Ints  # (S,) contour table, -1 for circles
     tables: Tables
     parent: Ints  # (nodes,) -1 at the root; nodes 0 .. L - 1 are the leaves

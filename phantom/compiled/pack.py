@@ -110,6 +110,11 @@ def _segments(parts: list[tuple[Part, Floats]]) -> dict[str, Any]:
                 changing.append(table)
     rows = [index if known else len(fixed) + index for known, index in owners]
     result: dict[str, Any] = {name: np.concatenate(column) for name, column in columns.items()}
+    bounds = result["hessians"]
+    result["hulls"] = np.stack(
+        [bounds[..., 0].min(axis=(1, 2)), bounds[..., 1].max(axis=(1, 2))], axis=-1
+    )
+    result["cornered"] = result["kinks"].any(axis=(1, 2, 3)).astype(np.int64)
     result["first_segment"] = _starts([len(part.segments.origins) for part, _ in parts])
     result["segment_table"] = np.array(rows, dtype=np.int64)
     result["tables"] = _tables([table for _, table in fixed.values()], changing)

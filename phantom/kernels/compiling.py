@@ -75,12 +75,29 @@ def _shared_temporary(name: str) -> str:
 
 def kernel(function: Kernel) -> Kernel:
     """Compile a function on first call; division by zero gives inf or nan, as in numpy."""
+    return _compiled(function)
+
+
+def lane(function: Kernel) -> Kernel:
+    """Compile a function that is laid into the loops that call it, so that they can be packed."""
+    return _compiled(function, fastmath={"contract"}, forceinline=True, no_cpython_wrapper=True)
+
+
+def lane_loop(function: Kernel) -> Kernel:
+    """Compile a loop over lanes.
+
+    A product and a sum may be rounded once instead of twice; nothing else is loosened.
+    """
+    return _compiled(function, fastmath={"contract"})
+
+
+def _compiled(function: Kernel, **options: Any) -> Kernel:
     settings: Any = numba.config
     before = settings.CACHE_DIR
     # The place is read while the function is decorated; other users of numba keep theirs.
     settings.CACHE_DIR = cache_folder()
     try:
-        compiled = numba.njit(nogil=True, cache=True, error_model="numpy")(function)
+        compiled = numba.njit(nogil=True, cache=True, error_model="numpy", **options)(function)
     finally:
         settings.CACHE_DIR = before
     return cast(Kernel, compiled)

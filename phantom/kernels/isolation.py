@@ -1,0 +1,374 @@
+"""Lanes against one segment: every root of G found, none lost.
+
+The tests are those of :mod:`phantom.kernels.cylinder`. Bounds over the whole segment are tried on
+all lanes at once; only where these leave a doubt are the cells that a ray runs through looked at.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from phantom.compiled.layout import CELLS, Scene
+from phantom.kernels.compiling import kernel, lane, lane_loop
+from phantom.kernels.cylinder import crosses_once, curvature, stays_positive
+from phantom.kernels.lanes import (
+    AT_I,
+    AT_J,
+    AT_T,
+    AT_W,
+    GA,
+    GB,
+    HIGH,
+    LANES,
+    LOW,
+    RA,
+    RB,
+    RGA,
+    RI,
+    RJ,
+    RS,
+    RT,
+    RW,
+    SA,
+    SB,
+    SLOPE,
+    TA,
+    TAU,
+    TB,
+    YA,
+    YB,
+    YGA,
+    YGB,
+    YI,
+    YJ,
+    YSA,
+    YSB,
+    YTA,
+    YTB,
+    A,
+    B,
+    G,
+    I,
+    J,
+    evaluate_lanes,
+)
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+DONE, ROOT, SPLIT = 0.0, 1.0, 2.0
+
+STEP_MM = 1e-7
+"""A step of Newton's this small leaves an error of its square: far below the rounding of w."""
+
+_HALVINGS = 200
+
+
+@lane
+def way_up(g: float, slope: float, low: float) -> float:
+    """Return what :func:`phantom.kernels.cylinder.reach` does, without a branch."""
+    square = slope * slope - 2.0 * low * g
+    root = math.sqrt(max(square, 0.0))
+    rising = slope >= 0.0
+    way = ((slope + root) if rising else 2.0 * g) / (-low if rising else (root - slope))
+    endless = (rising & (low >= 0.0)) | (square < 0.0)
+    return math.inf if endless else way
+
+
+@lane
+def verdict(
+    g0: float, s0: float, g1: float, s1: float, span: float, low: float, high: float
+) -> float:
+    """Say DONE, ROOT or SPLIT of an interval of a contour without corners."""
+    negative = g0 < 0.0
+    opposite = negative != (g1 < 0.0)
+    sign = -1.0 if negative else 1.0
+    lo, hi = (-high if negative else low), (-low if negative else high)
+    left, right = way_up(sign * g0, sign * s0, lo), way_up(sign * g1, -sign * s1, lo)
+    clear = (left + right > span) if lo <= 0.0 else ((left > span) | (right > span))
+    bow = 0.5 * hi * span * span
+    t = 0.5 * (1.0 - sign * (g1 - g0) / bow)
+    chord = sign * ((1.0 - t) * g0 + t * g1) - bow * t * (1.0 - t)
+    clear = clear | (bow <= 0.0) | (t <= 0.0) | (t >= 1.0) | (chord > 0.0)
+    # The slope lies between two lines from each end; where they meet is its extreme.
+    spread = 1.0 / (high - low)
+    b = s1 - high * span
+    s = min(max((s0 - b) * spread, 0.0), span)
+    rising = max(s0 + low * s, b + high * s)
+    b = s1 - low * span
+    s = min(max((b - s0) * spread, 0.0), span)
+    falling = min(s0 + high * s, b + low * s)
+    once = (low >= 0.0) | (high <= 0.0) | (rising > 0.0) | (falling < 0.0)
+    same = DONE if clear else SPLIT
+    other = ROOT if once else SPLIT
+    return other if opposite else same
+
+
+@lane_loop
+def judge(S: Floats, n: int, slabs: Floats, hulls: Floats, k: int) -> None:
+    """Write the verdict on n intervals, by bounds over the whole segment, into ``LOW``."""
+    l0, l1, l2 = hulls[k, 0, 0], hulls[k, 1, 0], hulls[k, 2, 0]
+    l3, l4, l5 = hulls[k, 3, 0], hulls[k, 4, 0], hulls[k, 5, 0]
+    h0, h1, h2 = hulls[k, 0, 1], hulls[k, 1, 1], hulls[k, 2, 1]
+    h3, h4, h5 = hulls[k, 3, 1], hulls[k, 4, 1], hulls[k, 5, 1]
+    e0, e0i, e0j = slabs[0, 3], slabs[0, 4], slabs[0, 5]
+    e1, e1i, e1j = slabs[1, 3], slabs[1, 4], slabs[1, 5]
+    e2, e2i, e2j = slabs[2, 3], slabs[2, 4], slabs[2, 5]
+    for m in range(n):
+        i, j = S[I + m], S[J + m]
+        a, b, c = e0 + i * e0i + j * e0j, e1 + i * e1i + j * e1j, e2 + i * e2i + j * e2j
+        ab, ac, bc = 2.0 * a * b, 2.0 * a * c, 2.0 * b * c
+        a, b, c = a * a, b * b, c * c
+        low = a * l0 + b * l1 + c * l2
+        low += min(ab * l3, ab * h3) + min(ac * l4, ac * h4) + min(bc * l5, bc * h5)
+        high = a * h0 + b * h1 + c * h2
+        high += max(ab * l3, ab * h3) + max(ac * l4, ac * h4) + max(bc * l5, bc * h5)
+        S[LOW + m] = verdict(
+            S[GA + m], S[SA + m], S[GB + m], S[SB + m], S[B + m] - S[A + m], low, high
+        )
+
+
+@kernel
+def look_closer(
+    S: Floats, m: int, slabs: Floats, scene: Scene, k: int, beam: Floats, shortest: float
+) -> float:
+    """Return the verdict on one interval by the bounds of the cells that its ray runs through."""
+    g0, s0, g1, s1 = S[GA + m], S[SA + m], S[GB + m], S[SB + m]
+    a, b = S[A + m], S[B + m]
+    opposite = (g0 < 0.0) != (g1 < 0.0)
+    if b - a < shortest:
+        return ROOT if opposite else DONE
+    i, j = S[I + m], S[J + m]
+    for axis in range(2):
+        cells = 0.5 * CELLS / slabs[axis, 6]
+        p = slabs[axis, 0] + i * slabs[axis, 1] + j * slabs[axis, 2]
+        d = slabs[axis, 3] + i * slabs[axis, 4] + j * slabs[axis, 5]
+        beam[2 * axis], beam[2 * axis + 1] = (p + slabs[axis, 6]) * cells, d * cells
+    e0 = slabs[0, 3] + i * slabs[0, 4] + j * slabs[0, 5]
+    e1 = slabs[1, 3] + i * slabs[1, 4] + j * slabs[1, 5]
+    e2 = slabs[2, 3] + i * slabs[2, 4] + j * slabs[2, 5]
+    beam[4], beam[5], beam[6] = e0 * e0, e1 * e1, e2 * e2
+    beam[7], beam[8], beam[9] = 2.0 * e0 * e1, 2.0 * e0 * e2, 2.0 * e1 * e2
+    low, high, up, down = curvature(scene.hessians, scene.kinks, k, beam, a, b)
+    if opposite:
+        return ROOT if crosses_once(g0, s0, s1, b - a, low, high, up, down) else SPLIT
+    if g0 < 0.0:
+        clear = stays_positive(-g0, -s0, -g1, -s1, b - a, -high, -low, down, up)
+    else:
+        clear = stays_positive(g0, s0, g1, s1, b - a, low, high, up, down)
+    return DONE if clear else SPLIT
+
+
+@lane_loop
+def first_guess(S: Floats, first: int, n: int) -> None:
+    """Guess each root from the parabola through both ends with the slope at the first."""
+    for m in range(first, n):
+        a, b, ga, sa = S[RA + m], S[RB + m], S[RGA + m], S[RS + m]
+        span = b - a
+        bend = (S[RW + m] - ga - sa * span) / (span * span)
+        root = math.sqrt(max(sa * sa - 4.0 * bend * ga, 0.0))
+        w = a + 2.0 * ga / ((root if ga > 0.0 else -root) - sa)
+        S[RW + m] = w if (w > a) & (w < b) else 0.5 * (a + b)
+
+
+@lane_loop
+def aim(S: Floats, n: int) -> None:
+    """Ask for G at the present roots."""
+    for m in range(n):
+        S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m] = (
+            S[RI + m],
+            S[RJ + m],
+            S[RW + m],
+            S[RT + m],
+        )
+
+
+@lane_loop
+def newton(S: Floats, n: int) -> None:
+    """Take a step of Newton's within the bracket; ``RS`` becomes how long it was."""
+    for m in range(n):
+        w, g = S[RW + m], S[G + m]
+        falling = S[RGA + m] > 0.0
+        before = (g > 0.0) == falling
+        a, b = (w if before else S[RA + m]), (S[RB + m] if before else w)
+        following = w - g / S[SLOPE + m]
+        within = (following >= a) & (following <= b)
+        following = following if within else 0.5 * (a + b)
+        following = w if g == 0.0 else following
+        S[RA + m], S[RB + m], S[RW + m] = a, b, following
+        S[RS + m] = abs(following - w)
+        S[RT + m] = S[TAU + m]
+
+
+@kernel
+def polish_lanes(
+    S: Floats,
+    n: int,
+    rays: Floats,
+    ox: float,
+    oy: float,
+    oz: float,
+    scene: Scene,
+    k: int,
+    enough: float,
+    pixels: Ints,
+    where: Floats,
+    signs: Floats,
+    filled: int,
+    columns: int,
+) -> int:
+    """Find the one root in each of n intervals and record it; return how many records there are."""
+    table = scene.segment_table[k]
+    first_guess(S, 0, n)
+    for step in range(_HALVINGS):
+        if n == 0:
+            break
+        aim(S, n)
+        evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+        newton(S, n)
+        if step == 0:
+            continue
+        left = 0
+        for m in range(n):
+            if S[RS + m] < enough or S[RB + m] - S[RA + m] < 1e-15 or step == _HALVINGS - 1:
+                pixels[filled] = int(S[RI + m]) * columns + int(S[RJ + m])
+                where[filled] = S[RW + m]
+                signs[filled] = 1.0 if S[RGA + m] > 0.0 else -1.0
+                filled += 1
+            else:
+                S[RI + left], S[RJ + left], S[RT + left] = S[RI + m], S[RJ + m], S[RT + m]
+                S[RA + left], S[RB + left], S[RW + left] = S[RA + m], S[RB + m], S[RW + m]
+                S[RGA + left] = S[RGA + m]
+                left += 1
+        n = left
+    return filled
+
+
+@lane_loop
+def ask(S: Floats, n: int, at: int, known: bool) -> None:
+    """Ask for G at one end of every interval; tau is about known at the other end or not."""
+    for m in range(n):
+        S[AT_I + m], S[AT_J + m], S[AT_W + m] = S[I + m], S[J + m], S[at + m]
+        S[AT_T + m] = S[TA + m] if known else 0.0
+
+
+@lane_loop
+def answer(S: Floats, n: int, g: int, slope: int, tau: int) -> None:
+    """Keep what G was."""
+    for m in range(n):
+        S[g + m], S[slope + m], S[tau + m] = S[G + m], S[SLOPE + m], S[TAU + m]
+
+
+@lane_loop
+def ask_between(S: Floats, n: int) -> None:
+    """Ask for G where the slope's secant vanishes: near the extreme that is in doubt."""
+    for m in range(n):
+        a, b, s0, s1 = S[YA + m], S[YB + m], S[YSA + m], S[YSB + m]
+        opposite = (S[YGA + m] < 0.0) != (S[YGB + m] < 0.0)
+        part = min(max(s0 / (s0 - s1), 0.1), 0.9)
+        part = 0.5 if opposite | (s0 == s1) else part
+        S[AT_I + m], S[AT_J + m] = S[YI + m], S[YJ + m]
+        S[AT_W + m] = a + part * (b - a)
+        S[AT_T + m] = S[YTA + m] + part * (S[YTB + m] - S[YTA + m])
+
+
+@lane_loop
+def halve(S: Floats, n: int) -> None:
+    """Make two intervals of each that was split."""
+    for m in range(n):
+        S[I + m], S[J + m] = S[YI + m], S[YJ + m]
+        S[A + m], S[GA + m], S[SA + m], S[TA + m] = S[YA + m], S[YGA + m], S[YSA + m], S[YTA + m]
+        S[B + m], S[GB + m], S[SB + m], S[TB + m] = S[AT_W + m], S[G + m], S[SLOPE + m], S[TAU + m]
+    for m in range(n):
+        S[I + n + m], S[J + n + m] = S[YI + m], S[YJ + m]
+        S[A + n + m], S[GA + n + m] = S[AT_W + m], S[G + m]
+        S[SA + n + m], S[TA + n + m] = S[SLOPE + m], S[TAU + m]
+        S[B + n + m], S[GB + n + m] = S[YB + m], S[YGB + m]
+        S[SB + n + m], S[TB + n + m] = S[YSB + m], S[YTB + m]
+
+
+@kernel
+def isolate(
+    S: Floats,
+    n: int,
+    rays: Floats,
+    ox: float,
+    oy: float,
+    oz: float,
+    slabs: Floats,
+    scene: Scene,
+    k: int,
+    shortest: float,
+    enough: float,
+    beam: Floats,
+    pixels: Ints,
+    where: Floats,
+    signs: Floats,
+    filled: int,
+    columns: int,
+) -> int:
+    """Record where n lanes enter and leave a segment within their intervals.
+
+    Returns how many records there are now; negative where there was no room for them.
+    """
+    table = scene.segment_table[k]
+    ask(S, n, A, False)
+    evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+    answer(S, n, GA, SA, TA)
+    ask(S, n, B, True)
+    evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+    answer(S, n, GB, SB, TB)
+    if filled + 2 * n > len(pixels):
+        return -1
+    for m in range(n):
+        if S[GA + m] < 0.0:
+            pixels[filled] = int(S[I + m]) * columns + int(S[J + m])
+            where[filled], signs[filled] = S[A + m], 1.0
+            filled += 1
+        if S[GB + m] < 0.0:
+            pixels[filled] = int(S[I + m]) * columns + int(S[J + m])
+            where[filled], signs[filled] = S[B + m], -1.0
+            filled += 1
+    cornered = scene.cornered[k] != 0
+    roots = 0
+    while n > 0:
+        if roots + n > LANES or n > LANES:
+            if filled + roots > len(pixels) or n > LANES:
+                return -1
+            filled = polish_lanes(
+                S, roots, rays, ox, oy, oz, scene, k, enough, pixels, where, signs, filled, columns
+            )
+            roots = 0
+        if not cornered:
+            judge(S, n, slabs, scene.hulls, k)
+        halves = 0
+        for m in range(n):
+            code = S[LOW + m]
+            if cornered or code == SPLIT:
+                code = look_closer(S, m, slabs, scene, k, beam, shortest)
+            if code == ROOT:
+                S[RI + roots], S[RJ + roots], S[RT + roots] = S[I + m], S[J + m], S[TA + m]
+                S[RA + roots], S[RGA + roots], S[RS + roots] = S[A + m], S[GA + m], S[SA + m]
+                S[RB + roots], S[RW + roots] = S[B + m], S[GB + m]
+                roots += 1
+            elif code == SPLIT:
+                S[YI + halves], S[YJ + halves] = S[I + m], S[J + m]
+                S[YA + halves], S[YGA + halves] = S[A + m], S[GA + m]
+                S[YSA + halves], S[YTA + halves] = S[SA + m], S[TA + m]
+                S[YB + halves], S[YGB + halves] = S[B + m], S[GB + m]
+                S[YSB + halves], S[YTB + halves] = S[SB + m], S[TB + m]
+                halves += 1
+        if 2 * halves > LANES:
+            return -1
+        ask_between(S, halves)
+        evaluate_lanes(S, halves, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+        halve(S, halves)
+        n = 2 * halves
+    if filled + roots > len(pixels):
+        return -1
+    return polish_lanes(
+        S, roots, rays, ox, oy, oz, scene, k, enough, pixels, where, signs, filled, columns
+    )

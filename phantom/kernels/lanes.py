@@ -1,0 +1,232 @@
+"""Lanes: many rays against one segment, side by side in one flat array.
+
+A row holds one number of every lane; rows lie ``STRIDE`` apart, so that the compiler can see that
+they never overlap. A lane is a pixel of the tile (``I``, ``J``) and an interval of its ray.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from phantom.compiled.layout import Tables
+from phantom.kernels.compiling import lane, lane_loop
+from phantom.kernels.jets import along, at_point, nearer_tau, plane, value, value_and_slope
+from phantom.kernels.section import changing_star, star
+
+Floats = NDArray[np.float64]
+
+TILE_ROWS, TILE_COLUMNS = 16, 128
+"""Pixels of a tile; wide, since neighbours along a row meet solids in the same order."""
+
+LANES = TILE_ROWS * TILE_COLUMNS
+
+STRIDE = LANES + 72
+"""Not a power of two: rows at such a distance would share the same lines of the cache."""
+
+# The intervals in question: pixel; w, G, slope and tau at either end.
+I, J, A, GA, SA, TA, B, GB, SB, TB = (n * STRIDE for n in range(10))  # noqa: E741
+# Those to be split, in the same order.
+YI, YJ, YA, YGA, YSA, YTA, YB, YGB, YSB, YTB = (n * STRIDE for n in range(10, 20))
+# Where G is wanted, and what it is there.
+AT_I, AT_J, AT_W, AT_T, G, SLOPE, TAU = (n * STRIDE for n in range(20, 27))
+# Intervals with one root each.
+RI, RJ, RA, RGA, RB, RW, RT, RS = (n * STRIDE for n in range(27, 35))
+# Between the steps of an evaluation, or of a decision.
+XV, XT, XW, YV, YT, YW, FV, FT, FW, H, HX, HY, HT = (n * STRIDE for n in range(35, 48))
+LOW, HIGH = (n * STRIDE for n in range(48, 50))
+ROWS = 50
+
+
+@lane
+def away_from_zero(d: float) -> float:
+    """Return d, or something tiny: a slab that a ray runs along is left far away, or never."""
+    return d if d != 0.0 else 1e-280
+
+
+@lane_loop
+def evaluate_circle(
+    S: Floats, n: int, rays: Floats, ox: float, oy: float, oz: float, polynomials: Floats, k: int
+) -> None:
+    """Write G, its slope and tau at ``AT_W`` of n lanes, for a circle.
+
+    ``rays`` is (6, 3): origin, its steps to the next row and column, direction, its steps; the
+    origin is taken from (ox, oy, oz), about the segment.
+    """
+    px, py = plane(polynomials, k, 4), plane(polynomials, k, 8)
+    pf = plane(polynomials, k, 0)
+    oxi, oyi, ozi = rays[1, 0], rays[1, 1], rays[1, 2]
+    oxj, oyj, ozj = rays[2, 0], rays[2, 1], rays[2, 2]
+    dx0, dy0, dz0 = rays[3, 0], rays[3, 1], rays[3, 2]
+    dxi, dyi, dzi = rays[4, 0], rays[4, 1], rays[4, 2]
+    dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
+    for m in range(n):
+        i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
+        dx = dx0 + i * dxi + j * dxj
+        dy = dy0 + i * dyi + j * dyj
+        dz = dz0 + i * dzi + j * dzj
+        x = ox + i * oxi + j * oxj + w * dx
+        y = oy + i * oyi + j * oyj + w * dy
+        z = oz + i * ozi + j * ozj + w * dz
+        f = at_point(pf, x, y, z)
+        t = nearer_tau(f, nearer_tau(f, t))
+        fv, ft = value_and_slope(f, t)
+        over = 1.0 / ft
+        rest = fv * over
+        turn = value(along(pf, dx, dy, dz), t) * over
+        xv, xt = value_and_slope(at_point(px, x, y, z), t)
+        yv, yt = value_and_slope(at_point(py, x, y, z), t)
+        xw = value(along(px, dx, dy, dz), t)
+        yw = value(along(py, dx, dy, dz), t)
+        gt = 2.0 * (xv * xt + yv * yt)
+        S[G + m] = xv * xv + yv * yv - 1.0 - gt * rest
+        S[SLOPE + m] = 2.0 * (xv * xw + yv * yw) - gt * turn
+        S[TAU + m] = t - rest
+
+
+@lane_loop
+def evaluate_jets(
+    S: Floats, n: int, rays: Floats, ox: float, oy: float, oz: float, polynomials: Floats, k: int
+) -> None:
+    """Write F and phi with their slopes along tau and w; ``TAU`` is where they are taken."""
+    px, py = plane(polynomials, k, 4), plane(polynomials, k, 8)
+    pf = plane(polynomials, k, 0)
+    oxi, oyi, ozi = rays[1, 0], rays[1, 1], rays[1, 2]
+    oxj, oyj, ozj = rays[2, 0], rays[2, 1], rays[2, 2]
+    dx0, dy0, dz0 = rays[3, 0], rays[3, 1], rays[3, 2]
+    dxi, dyi, dzi = rays[4, 0], rays[4, 1], rays[4, 2]
+    dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
+    for m in range(n):
+        i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
+        dx = dx0 + i * dxi + j * dxj
+        dy = dy0 + i * dyi + j * dyj
+        dz = dz0 + i * dzi + j * dzj
+        x = ox + i * oxi + j * oxj + w * dx
+        y = oy + i * oyi + j * oyj + w * dy
+        z = oz + i * ozi + j * ozj + w * dz
+        f = at_point(pf, x, y, z)
+        t = nearer_tau(f, nearer_tau(f, t))
+        fv, ft = value_and_slope(f, t)
+        S[TAU + m], S[FV + m], S[FT + m] = t, fv, ft
+        S[FW + m] = value(along(pf, dx, dy, dz), t)
+        xv, xt = value_and_slope(at_point(px, x, y, z), t)
+        yv, yt = value_and_slope(at_point(py, x, y, z), t)
+        S[XV + m], S[XT + m], S[XW + m] = xv, xt, value(along(px, dx, dy, dz), t)
+        S[YV + m], S[YT + m], S[YW + m] = yv, yt, value(along(py, dx, dy, dz), t)
+
+
+@lane_loop
+def look_up(S: Floats, n: int, table: int, tables: Tables) -> None:
+    """Write h and its gradient from a contour's table."""
+    if tables.first_cell[table] < len(tables.cells):
+        for m in range(n):
+            S[H + m], S[HX + m], S[HY + m] = star(S[XV + m], S[YV + m], table, tables)
+            S[HT + m] = 0.0
+    else:
+        for m in range(n):
+            S[H + m], S[HX + m], S[HY + m], S[HT + m] = changing_star(
+                S[XV + m], S[YV + m], S[TAU + m], table, tables
+            )
+
+
+@lane_loop
+def join_jets(S: Floats, n: int) -> None:
+    """Write G and its slope along the ray from what :func:`look_up` and the jets left."""
+    for m in range(n):
+        over = 1.0 / S[FT + m]
+        rest, turn = S[FV + m] * over, S[FW + m] * over
+        hx, hy = S[HX + m], S[HY + m]
+        gt = hx * S[XT + m] + hy * S[YT + m] + S[HT + m]
+        S[G + m] = S[H + m] - gt * rest
+        S[SLOPE + m] = hx * S[XW + m] + hy * S[YW + m] - gt * turn
+        S[TAU + m] = S[TAU + m] - rest
+
+
+@lane_loop
+def pad(S: Floats, n: int) -> int:
+    """Repeat the last point to be evaluated up to a whole number of wide registers."""
+    full = (n + 3) & -4
+    for m in range(n, full):
+        S[AT_I + m], S[AT_J + m] = S[AT_I + n - 1], S[AT_J + n - 1]
+        S[AT_W + m], S[AT_T + m] = S[AT_W + n - 1], S[AT_T + n - 1]
+    return full
+
+
+@lane_loop
+def evaluate_lanes(
+    S: Floats,
+    n: int,
+    rays: Floats,
+    ox: float,
+    oy: float,
+    oz: float,
+    polynomials: Floats,
+    k: int,
+    table: int,
+    tables: Tables,
+) -> None:
+    """Write G, its slope along w and tau at ``AT_W`` of n lanes; ``AT_T`` guesses tau."""
+    if n == 0:
+        return
+    full = pad(S, n)
+    if table < 0:
+        evaluate_circle(S, full, rays, ox, oy, oz, polynomials, k)
+        return
+    evaluate_jets(S, full, rays, ox, oy, oz, polynomials, k)
+    look_up(S, full, table, tables)
+    join_jets(S, full)
+
+
+@lane_loop
+def collect(
+    S: Floats, knots: Floats, knot: int, slabs: Floats, i0: int, i1: int, j0: int, j1: int
+) -> int:
+    """Fill the lanes of a segment from the pixels of a rectangle; return how many there are.
+
+    An interval is what of [0, 1] lies between the section planes ``knot`` and ``knot + 1``,
+    F_k >= 0 > F_k+1, and within the box. ``knots`` (n, 6) and ``slabs`` (3, 8) hold a plane's value
+    and its slope along the ray, each with its steps to the next row and column; a slab's half
+    width follows.
+    """
+    count = 0
+    for row in range(i0, i1):
+        i = float(row)
+        fa, faj = knots[knot, 0] + i * knots[knot, 1], knots[knot, 2]
+        da, daj = knots[knot, 3] + i * knots[knot, 4], knots[knot, 5]
+        fb, fbj = knots[knot + 1, 0] + i * knots[knot + 1, 1], knots[knot + 1, 2]
+        db, dbj = knots[knot + 1, 3] + i * knots[knot + 1, 4], knots[knot + 1, 5]
+        p0, p0j, h0 = slabs[0, 0] + i * slabs[0, 1], slabs[0, 2], slabs[0, 6]
+        d0, d0j = slabs[0, 3] + i * slabs[0, 4], slabs[0, 5]
+        p1, p1j, h1 = slabs[1, 0] + i * slabs[1, 1], slabs[1, 2], slabs[1, 6]
+        d1, d1j = slabs[1, 3] + i * slabs[1, 4], slabs[1, 5]
+        p2, p2j, h2 = slabs[2, 0] + i * slabs[2, 1], slabs[2, 2], slabs[2, 6]
+        d2, d2j = slabs[2, 3] + i * slabs[2, 4], slabs[2, 5]
+        for column in range(j0, j1):
+            j = float(column)
+            a, b = 0.0, 1.0
+            f, d = fa + j * faj, da + j * daj
+            t = -f / d
+            a = t if (d > 0.0) & (t > a) else a
+            b = t if (d < 0.0) & (t < b) else b
+            b = -1.0 if (d == 0.0) & (f < 0.0) else b
+            f, d = fb + j * fbj, db + j * dbj
+            t = -f / d
+            b = t if (d > 0.0) & (t < b) else b
+            a = t if (d < 0.0) & (t > a) else a
+            b = -1.0 if (d == 0.0) & (f >= 0.0) else b
+            # |p + w d| <= h: the middle and half the length of the part inside.
+            over = 1.0 / away_from_zero(d0 + j * d0j)
+            middle, half = -(p0 + j * p0j) * over, abs(h0 * over)
+            a, b = max(a, middle - half), min(b, middle + half)
+            over = 1.0 / away_from_zero(d1 + j * d1j)
+            middle, half = -(p1 + j * p1j) * over, abs(h1 * over)
+            a, b = max(a, middle - half), min(b, middle + half)
+            over = 1.0 / away_from_zero(d2 + j * d2j)
+            middle, half = -(p2 + j * p2j) * over, abs(h2 * over)
+            a, b = max(a, middle - half), min(b, middle + half)
+            S[LOW + column], S[HIGH + column] = a, b
+        for column in range(j0, j1):
+            a, b = S[LOW + column], S[HIGH + column]
+            S[I + count], S[J + count], S[A + count], S[B + count] = i, float(column), a, b
+            count += 1 if a < b else 0
+    return count

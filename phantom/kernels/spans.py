@@ -1,0 +1,172 @@
+"""The algebra of densities along spans: pixels of one row that meet the same solids in one order.
+
+Neighbouring rays nearly always do. So the operators are evaluated once a span, and what they say
+is a sum of the ends of intervals, each with a factor of +1 or -1, the same for all its pixels.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from phantom.compiled.layout import Scene
+from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.csg import sort_events, surviving, toggle
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Flags = NDArray[np.uint8]
+
+SPAN = 64
+"""Pixels looked at together at most."""
+
+MOST = 62
+"""Slots that one row of a tile may meet; more are left to the scalar way."""
+
+
+@lane_loop
+def mark(ends: Floats, slot: int, start: int, width: int, bit: int, masks: Ints) -> int:
+    """Set a bit for every pixel of a row that meets the slot; return how many do."""
+    met = 0
+    for j in range(width):
+        hit = ends[2 * slot + 1, start + j] > ends[2 * slot, start + j]
+        masks[j] |= bit if hit else 0
+        met += 1 if hit else 0
+    return met
+
+
+@lane_loop
+def falls(ends: Floats, before: int, after: int, start: int, width: int, wrong: Ints) -> None:
+    """Note the pixels at which one end does not lie before the other."""
+    for j in range(width):
+        wrong[j] |= 1 if ends[before, start + j] > ends[after, start + j] else 0
+
+
+@lane_loop
+def add(ends: Floats, end: int, factor: float, start: int, width: int, sums: Floats) -> None:
+    """Add a multiple of one end."""
+    for j in range(width):
+        sums[j] += factor * ends[end, start + j]
+
+
+@lane_loop
+def put(sums: Floats, rays: Floats, row: int, column: int, width: int, out: Floats) -> None:
+    """Turn parts of the way into mm and clear the sums."""
+    dx0 = rays[3, 0] + row * rays[4, 0] + column * rays[5, 0]
+    dy0 = rays[3, 1] + row * rays[4, 1] + column * rays[5, 1]
+    dz0 = rays[3, 2] + row * rays[4, 2] + column * rays[5, 2]
+    dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
+    for j in range(width):
+        dx, dy, dz = dx0 + j * dxj, dy0 + j * dyj, dz0 + j * dzj
+        out[j] = max(sums[j], 0.0) * math.sqrt(dx * dx + dy * dy + dz * dz)
+        sums[j] = 0.0
+
+
+@kernel
+def combine(
+    scene: Scene,
+    rays: Floats,
+    ends: Floats,
+    owners: Ints,
+    slots: int,
+    rows: int,
+    columns: int,
+    masks: Ints,
+    wrong: Ints,
+    met: Ints,
+    events: Floats,
+    order: Ints,
+    factors: Floats,
+    sums: Floats,
+    present: Flags,
+    nodes: Ints,
+    kept: Ints,
+    out: Floats,
+) -> bool:
+    """Fill ``out`` (M, rows, columns) from the slots of a tile; False where there are too many."""
+    leaves = len(scene.leaf_radius)
+    root = len(scene.parent) - 1
+    channels = out.shape[0]
+    for i in range(rows):
+        start = i * columns
+        for j in range(columns):
+            masks[j] = 0
+        count = 0
+        for slot in range(slots):
+            if mark(ends, slot, start, columns, 1 << count, masks) > 0:
+                met[count] = slot
+                count += 1
+                if count > MOST:
+                    return False
+        j = 0
+        while j < columns:
+            mask = masks[j]
+            limit = min(columns, j + SPAN)
+            end = j + 1
+            while end < limit and masks[end] == mask:
+                end += 1
+            if mask == 0:
+                j = end
+                continue
+            number = 0
+            for bit in range(count):
+                if mask >> bit & 1:
+                    for side in range(2):
+                        order[number] = number
+                        kept[number] = 2 * met[bit] + side
+                        events[number] = ends[2 * met[bit] + side, start + j]
+                        number += 1
+            sort_events(events, order, number)
+            for e in range(number):
+                nodes[e] = kept[order[e]]
+            for e in range(number):
+                order[e] = nodes[e]
+            width = end - j
+            for m in range(width):
+                wrong[m] = 0
+            for e in range(number - 1):
+                falls(ends, order[e], order[e + 1], start + j, width, wrong)
+            width = 1
+            while width < end - j and wrong[width] == 0:
+                width += 1
+            for channel in range(channels):
+                for e in range(number):
+                    factors[channel, e] = 0.0
+            for e in range(number - 1):
+                toggle(
+                    owners[order[e] // 2],
+                    present,
+                    scene.parent,
+                    scene.operator,
+                    scene.left,
+                    scene.right,
+                )
+                for m in range(
+                    surviving(
+                        root, leaves, present, scene.operator, scene.left, scene.right, nodes, kept
+                    )
+                ):
+                    channel = scene.leaf_material[kept[m]]
+                    if channel >= 0:
+                        factors[channel, e] -= 1.0
+                        factors[channel, e + 1] += 1.0
+            toggle(
+                owners[order[number - 1] // 2],
+                present,
+                scene.parent,
+                scene.operator,
+                scene.left,
+                scene.right,
+            )
+            for channel in range(channels):
+                used = False
+                for e in range(number):
+                    if factors[channel, e] != 0.0:
+                        add(ends, order[e], factors[channel, e], start + j, width, sums)
+                        used = True
+                if used:
+                    put(sums, rays, i, j, width, out[channel, i, j : j + width])
+            j += width
+    return True
