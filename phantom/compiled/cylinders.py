@@ -141,6 +141,6 @@ def _outline(shape: Shape, knots: Floats) -> tuple[Floats, float]:
     at = shape.sections(u, piece)
     phi = shape.points(u, 256)
     phi = np.broadcast_to(phi, (len(u), *phi.shape[1:]))
-    points = at.middle[:, None] + np.einsum("nij,nvj->nvi", at.spread, phi)
+    points = at.middle[:, None] + phi @ np.swapaxes(at.spread, 1, 2)
     stretch = float(np.linalg.norm(at.spread, ord=2, axis=(1, 2)).max())
     return points.reshape(-1, 3), stretch

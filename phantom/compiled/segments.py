@@ -311,7 +311,7 @@ def _displacement(
     phi = phi.reshape(count, len(_CHECKS), -1, 2)
     spread = at.spread.reshape(count, len(_CHECKS), 3, 2)
     middle = at.middle.reshape(count, len(_CHECKS), 3) - origins[:, None]
-    x = middle[:, :, None] + np.einsum("knij,knvj->knvi", spread, phi)
+    x = middle[:, :, None] + phi @ np.swapaxes(spread, 2, 3)
 
     def at_tau(p: Floats, tau: Floats) -> Floats:
         """Every four rows of p as a plane: ``row.x - level``, second axis the planes."""
@@ -324,7 +324,7 @@ def _displacement(
     found = at_tau(plane, np.broadcast_to(_CHECKS[None, :, None], (count, len(_CHECKS), 1)))
     tau = _CHECKS[:, None] - found[:, 0] / found[:, 1]
     traced = at_tau(polynomials[:, 4:], tau)
-    off = np.einsum("knij,kjnv->knvi", spread, traced - np.moveaxis(phi, -1, 1))
+    off = (np.moveaxis(traced, 1, -1) - phi) @ np.swapaxes(spread, 2, 3)
     distance = np.linalg.norm(off, axis=-1).max(axis=(1, 2))
     # A changing contour's table meets the rest of the tolerance only with room to spare in tau.
     distance = distance + 2.0 * shape.fit_error(start, end)
