@@ -214,9 +214,11 @@ def polish(
             a = w
         else:
             b = w
-        following = w - g / slope
-        if not (following > a and following < b):
-            following = 0.5 * (a + b)
+        step = g / slope
+        following = w - step
+        if not (following >= a and following <= b):
+            # A root within rounding of an end is that end; halving there would end beside it.
+            following = min(max(following, a), b) if abs(step) < 1e-9 else 0.5 * (a + b)
         moved = abs(following - w)
         w = following
         # A step this small leaves an error of its square: far below the rounding of w.

@@ -22,13 +22,15 @@ from phantom.kernels.lanes import (
     GA,
     GB,
     HIGH,
-    LANES,
+    HELD,
     LOW,
     RA,
     RB,
+    RE,
     RGA,
     RI,
     RJ,
+    RP,
     RS,
     RT,
     RW,
@@ -55,14 +57,16 @@ from phantom.kernels.lanes import (
     J,
     evaluate_lanes,
 )
+from phantom.kernels.scratch import Scratch
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-DONE, ROOT, SPLIT = 0.0, 1.0, 2.0
+DONE, ROOT, DOUBT, SPLIT = 0.0, 1.0, 2.0, 3.0
+"""What is known of an interval: no root, one root, perhaps, or that a split will tell."""
 
-STEP_MM = 1e-7
-"""A step of Newton's this small leaves an error of its square: far below the rounding of w."""
+ERROR_MM = 1e-11
+"""What a root may be wrong by, as the last step of Newton's and the bend of G there have it."""
 
 _HALVINGS = 200
 
@@ -82,7 +86,7 @@ def way_up(g: float, slope: float, low: float) -> float:
 def verdict(
     g0: float, s0: float, g1: float, s1: float, span: float, low: float, high: float
 ) -> float:
-    """Say DONE, ROOT or SPLIT of an interval of a contour without corners."""
+    """Judge an interval of a contour without corners."""
     negative = g0 < 0.0
     opposite = negative != (g1 < 0.0)
     sign = -1.0 if negative else 1.0
@@ -102,8 +106,11 @@ def verdict(
     s = min(max((b - s0) * spread, 0.0), span)
     falling = min(s0 + high * s, b + low * s)
     once = (low >= 0.0) | (high <= 0.0) | (rising > 0.0) | (falling < 0.0)
-    same = DONE if clear else SPLIT
-    other = ROOT if once else SPLIT
+    # Where a parabola says that it is met twice, no closer look will say that it is not.
+    dips = (sign * s0 < 0.0) & (sign * s1 > 0.0)
+    dips = dips & (2.0 * sign * g0 * (s1 - s0) * sign < s0 * s0 * span)
+    same = DONE if clear else (SPLIT if dips else DOUBT)
+    other = ROOT if once else DOUBT
     return other if opposite else same
 
 
@@ -142,14 +149,18 @@ def look_closer(
     if b - a < shortest:
         return ROOT if opposite else DONE
     i, j = S[I + m], S[J + m]
-    for axis in range(2):
-        cells = 0.5 * CELLS / slabs[axis, 6]
-        p = slabs[axis, 0] + i * slabs[axis, 1] + j * slabs[axis, 2]
-        d = slabs[axis, 3] + i * slabs[axis, 4] + j * slabs[axis, 5]
-        beam[2 * axis], beam[2 * axis + 1] = (p + slabs[axis, 6]) * cells, d * cells
     e0 = slabs[0, 3] + i * slabs[0, 4] + j * slabs[0, 5]
     e1 = slabs[1, 3] + i * slabs[1, 4] + j * slabs[1, 5]
     e2 = slabs[2, 3] + i * slabs[2, 4] + j * slabs[2, 5]
+    # Bounds hold for mm along the ray: slopes and lengths are brought to them.
+    length = math.sqrt(e0 * e0 + e1 * e1 + e2 * e2)
+    e0, e1, e2 = e0 / length, e1 / length, e2 / length
+    a, b, s0, s1 = a * length, b * length, s0 / length, s1 / length
+    for axis in range(2):
+        cells = 0.5 * CELLS / slabs[axis, 6]
+        p = slabs[axis, 0] + i * slabs[axis, 1] + j * slabs[axis, 2]
+        beam[2 * axis] = (p + slabs[axis, 6]) * cells
+        beam[2 * axis + 1] = (e0 if axis == 0 else e1) * cells
     beam[4], beam[5], beam[6] = e0 * e0, e1 * e1, e2 * e2
     beam[7], beam[8], beam[9] = 2.0 * e0 * e1, 2.0 * e0 * e2, 2.0 * e1 * e2
     low, high, up, down = curvature(scene.hessians, scene.kinks, k, beam, a, b)
@@ -163,15 +174,24 @@ def look_closer(
 
 
 @lane_loop
-def first_guess(S: Floats, first: int, n: int) -> None:
-    """Guess each root from the parabola through both ends with the slope at the first."""
-    for m in range(first, n):
-        a, b, ga, sa = S[RA + m], S[RB + m], S[RGA + m], S[RS + m]
+def first_guess(S: Floats, n: int) -> None:
+    """Guess each root from the cubic with the values and slopes of both ends."""
+    for m in range(n):
+        a, b, ga, gb = S[RA + m], S[RB + m], S[RGA + m], S[RW + m]
         span = b - a
-        bend = (S[RW + m] - ga - sa * span) / (span * span)
+        sa, sb = S[RS + m] * span, S[RP + m] * span
+        # First the parabola that leaves out the slope at b, then the cubic, by Newton's steps.
+        bend = gb - ga - sa
         root = math.sqrt(max(sa * sa - 4.0 * bend * ga, 0.0))
-        w = a + 2.0 * ga / ((root if ga > 0.0 else -root) - sa)
-        S[RW + m] = w if (w > a) & (w < b) else 0.5 * (a + b)
+        t = 2.0 * ga / ((root if ga > 0.0 else -root) - sa)
+        t = t if (t > 0.0) & (t < 1.0) else 0.5
+        c2, c3 = 3.0 * (gb - ga) - 2.0 * sa - sb, 2.0 * (ga - gb) + sa + sb
+        for _ in range(3):
+            g = ((c3 * t + c2) * t + sa) * t + ga
+            t -= g / ((3.0 * c3 * t + 2.0 * c2) * t + sa)
+            t = min(max(t, 1e-3), 1.0 - 1e-3) if t == t else 0.5
+        S[RW + m] = a + t * span
+        S[RS + m] = math.inf
 
 
 @lane_loop
@@ -188,7 +208,11 @@ def aim(S: Floats, n: int) -> None:
 
 @lane_loop
 def newton(S: Floats, n: int) -> None:
-    """Take a step of Newton's within the bracket; ``RS`` becomes how long it was."""
+    """Take a step of Newton's within the bracket.
+
+    ``RS`` becomes how long it was and ``RP`` the slope it was taken with; ``RE`` what the step and
+    the bend of G, as the last two slopes have it, leave of an error.
+    """
     for m in range(n):
         w, g = S[RW + m], S[G + m]
         falling = S[RGA + m] > 0.0
@@ -199,30 +223,30 @@ def newton(S: Floats, n: int) -> None:
         following = following if within else 0.5 * (a + b)
         following = w if g == 0.0 else following
         S[RA + m], S[RB + m], S[RW + m] = a, b, following
-        S[RS + m] = abs(following - w)
+        step = abs(following - w)
+        bend = abs((S[SLOPE + m] - S[RP + m]) / (S[SLOPE + m] * S[RS + m]))
+        S[RE + m] = (0.5 * bend * step * step) if within else 1.0
+        S[RS + m], S[RP + m] = step, S[SLOPE + m]
         S[RT + m] = S[TAU + m]
 
 
 @kernel
 def polish_lanes(
-    S: Floats,
     n: int,
-    rays: Floats,
     ox: float,
     oy: float,
     oz: float,
     scene: Scene,
     k: int,
     enough: float,
-    pixels: Ints,
-    where: Floats,
-    signs: Floats,
+    held: Scratch,
     filled: int,
     columns: int,
 ) -> int:
     """Find the one root in each of n intervals and record it; return how many records there are."""
+    S, rays, pixels, where, signs = held.lanes, held.rays, held.pixels, held.where, held.signs
     table = scene.segment_table[k]
-    first_guess(S, 0, n)
+    first_guess(S, n)
     for step in range(_HALVINGS):
         if n == 0:
             break
@@ -233,7 +257,7 @@ def polish_lanes(
             continue
         left = 0
         for m in range(n):
-            if S[RS + m] < enough or S[RB + m] - S[RA + m] < 1e-15 or step == _HALVINGS - 1:
+            if S[RE + m] < enough or S[RB + m] - S[RA + m] < 1e-15 or step == _HALVINGS - 1:
                 pixels[filled] = int(S[RI + m]) * columns + int(S[RJ + m])
                 where[filled] = S[RW + m]
                 signs[filled] = 1.0 if S[RGA + m] > 0.0 else -1.0
@@ -241,7 +265,7 @@ def polish_lanes(
             else:
                 S[RI + left], S[RJ + left], S[RT + left] = S[RI + m], S[RJ + m], S[RT + m]
                 S[RA + left], S[RB + left], S[RW + left] = S[RA + m], S[RB + m], S[RW + m]
-                S[RGA + left] = S[RGA + m]
+                S[RGA + left], S[RS + left], S[RP + left] = S[RGA + m], S[RS + m], S[RP + m]
                 left += 1
         n = left
     return filled
@@ -292,21 +316,15 @@ def halve(S: Floats, n: int) -> None:
 
 @kernel
 def isolate(
-    S: Floats,
     n: int,
-    rays: Floats,
     ox: float,
     oy: float,
     oz: float,
-    slabs: Floats,
     scene: Scene,
     k: int,
     shortest: float,
     enough: float,
-    beam: Floats,
-    pixels: Ints,
-    where: Floats,
-    signs: Floats,
+    held: Scratch,
     filled: int,
     columns: int,
 ) -> int:
@@ -314,6 +332,14 @@ def isolate(
 
     Returns how many records there are now; negative where there was no room for them.
     """
+    S, rays, slabs, pixels, where, signs = (
+        held.lanes,
+        held.rays,
+        held.slabs,
+        held.pixels,
+        held.where,
+        held.signs,
+    )
     table = scene.segment_table[k]
     ask(S, n, A, False)
     evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
@@ -335,24 +361,22 @@ def isolate(
     cornered = scene.cornered[k] != 0
     roots = 0
     while n > 0:
-        if roots + n > LANES or n > LANES:
-            if filled + roots > len(pixels) or n > LANES:
+        if roots + n > HELD:
+            if filled + roots > len(pixels):
                 return -1
-            filled = polish_lanes(
-                S, roots, rays, ox, oy, oz, scene, k, enough, pixels, where, signs, filled, columns
-            )
+            filled = polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)
             roots = 0
         if not cornered:
             judge(S, n, slabs, scene.hulls, k)
         halves = 0
         for m in range(n):
             code = S[LOW + m]
-            if cornered or code == SPLIT:
-                code = look_closer(S, m, slabs, scene, k, beam, shortest)
+            if cornered or code == DOUBT:
+                code = look_closer(S, m, slabs, scene, k, held.beam, shortest)
             if code == ROOT:
                 S[RI + roots], S[RJ + roots], S[RT + roots] = S[I + m], S[J + m], S[TA + m]
                 S[RA + roots], S[RGA + roots], S[RS + roots] = S[A + m], S[GA + m], S[SA + m]
-                S[RB + roots], S[RW + roots] = S[B + m], S[GB + m]
+                S[RB + roots], S[RW + roots], S[RP + roots] = S[B + m], S[GB + m], S[SB + m]
                 roots += 1
             elif code == SPLIT:
                 S[YI + halves], S[YJ + halves] = S[I + m], S[J + m]
@@ -361,7 +385,7 @@ def isolate(
                 S[YB + halves], S[YGB + halves] = S[B + m], S[GB + m]
                 S[YSB + halves], S[YTB + halves] = S[SB + m], S[TB + m]
                 halves += 1
-        if 2 * halves > LANES:
+        if 2 * halves > HELD:
             return -1
         ask_between(S, halves)
         evaluate_lanes(S, halves, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
@@ -369,6 +393,4 @@ def isolate(
         n = 2 * halves
     if filled + roots > len(pixels):
         return -1
-    return polish_lanes(
-        S, roots, rays, ox, oy, oz, scene, k, enough, pixels, where, signs, filled, columns
-    )
+    return polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)

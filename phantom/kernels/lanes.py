@@ -21,7 +21,10 @@ TILE_ROWS, TILE_COLUMNS = 16, 128
 
 LANES = TILE_ROWS * TILE_COLUMNS
 
-STRIDE = LANES + 72
+HELD = 2 * LANES
+"""Intervals that can be looked at together: every pixel of a tile, split once."""
+
+STRIDE = HELD + 72
 """Not a power of two: rows at such a distance would share the same lines of the cache."""
 
 # The intervals in question: pixel; w, G, slope and tau at either end.
@@ -34,8 +37,8 @@ AT_I, AT_J, AT_W, AT_T, G, SLOPE, TAU = (n * STRIDE for n in range(20, 27))
 RI, RJ, RA, RGA, RB, RW, RT, RS = (n * STRIDE for n in range(27, 35))
 # Between the steps of an evaluation, or of a decision.
 XV, XT, XW, YV, YT, YW, FV, FT, FW, H, HX, HY, HT = (n * STRIDE for n in range(35, 48))
-LOW, HIGH = (n * STRIDE for n in range(48, 50))
-ROWS = 50
+LOW, HIGH, RP, RE = (n * STRIDE for n in range(48, 52))
+ROWS = 52
 
 
 @lane

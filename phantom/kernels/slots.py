@@ -16,6 +16,7 @@ from phantom.compiled.layout import Scene
 from phantom.kernels.compiling import kernel, lane_loop
 from phantom.kernels.lanes import LANES
 from phantom.kernels.leaves import quadric_leaf
+from phantom.kernels.scratch import Scratch
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -36,16 +37,8 @@ def clear(ends: Floats, slot: int) -> None:
 def settle(
     leaf: int,
     united: bool,
-    pixels: Ints,
-    where: Floats,
-    signs: Floats,
     count: int,
-    first: Floats,
-    last: Floats,
-    total: Floats,
-    book: Ints,
-    ends: Floats,
-    owners: Ints,
+    held: Scratch,
     slots: int,
 ) -> int:
     """Turn the records of one leaf into slots; return how many slots there are, or -1 for no room.
@@ -55,6 +48,9 @@ def settle(
     are sorted. ``book`` (3, lanes) counts a pixel's records, says where they begin once they are
     brought together, and how many have been.
     """
+    pixels, where, signs = held.pixels, held.where, held.signs
+    first, last, total, book = held.first, held.last, held.total, held.book
+    ends, owners = held.ends, held.owners
     for p in range(LANES):
         first[p], last[p], total[p], book[0, p] = 2.0, -1.0, 0.0, 0
     for r in range(count):
@@ -127,16 +123,16 @@ def settle(
 def cut(
     ends: Floats,
     slot: int,
-    f0: float,
-    fi: float,
-    fj: float,
-    d0: float,
-    di: float,
-    dj: float,
+    plane: Floats,
     rows: int,
     columns: int,
 ) -> None:
-    """Keep of a slot what lies where f + w d <= 0; f and d are linear in row and column."""
+    """Keep of a slot what lies where f + w d <= 0.
+
+    ``plane`` holds f and its steps to the next row and column, then d and its steps.
+    """
+    f0, fi, fj = plane[0], plane[1], plane[2]
+    d0, di, dj = plane[3], plane[4], plane[5]
     for i in range(rows):
         f, d = f0 + i * fi, d0 + i * di
         for j in range(columns):
@@ -169,8 +165,8 @@ def ellipsoids(
 ) -> int:
     """Fill a slot with the part of the ray inside a quadric that the ray meets in one piece.
 
-    Returns how many pixels of the rectangle it does not: a <= 0, or nearly; they are left missed,
-    with an exit of -1.
+    Returns how many pixels of the rectangle do not, a <= 0 or nearly: they are left with an exit of
+    -1.
     """
     a00, a11, a22, a01, a02, a12 = form[0], form[1], form[2], form[3], form[4], form[5]
     b0, b1, b2, c = form[6], form[7], form[8], form[9]
@@ -220,29 +216,25 @@ def ellipsoids(
 def other_quadrics(
     scene: Scene,
     leaf: int,
-    rays: Floats,
     i0: int,
     i1: int,
     j0: int,
     j1: int,
     columns: int,
-    ends: Floats,
-    owners: Ints,
+    held: Scratch,
     slots: int,
-    single: bool,
-    entries: Floats,
-    exits: Floats,
-    found: Ints,
 ) -> int:
-    """Fill the slots of a quadric leaf pixel by pixel, all or where ``single`` left an exit of -1.
+    """Fill the slots of a quadric leaf pixel by pixel where :func:`ellipsoids` left an exit of -1.
 
     The leaf's first slot is ``slots - 1``. Returns how many there are then, or -1 for no room.
     """
+    rays, ends, owners = held.rays, held.ends, held.owners
+    entries, exits = held.entries, held.exits
     base = slots - 1
     for i in range(i0, i1):
         for j in range(j0, j1):
             p = i * columns + j
-            if single and ends[2 * base + 1, p] >= 0.0:
+            if ends[2 * base + 1, p] >= 0.0:
                 continue
             ends[2 * base + 1, p] = 0.0
             x = rays[0, 0] + i * rays[1, 0] + j * rays[2, 0] - scene.leaf_center[leaf, 0]
@@ -270,7 +262,7 @@ def other_quadrics(
                 0,
                 entries,
                 exits,
-                found,
+                held.found,
             )
             for m in range(count):
                 if base + m >= slots:

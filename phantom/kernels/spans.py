@@ -14,16 +14,13 @@ from numpy.typing import NDArray
 from phantom.compiled.layout import Scene
 from phantom.kernels.compiling import kernel, lane_loop
 from phantom.kernels.csg import sort_events, surviving, toggle
+from phantom.kernels.scratch import MOST, Scratch
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-Flags = NDArray[np.uint8]
 
 SPAN = 64
 """Pixels looked at together at most."""
-
-MOST = 62
-"""Slots that one row of a tile may meet; more are left to the scalar way."""
 
 
 @lane_loop
@@ -67,25 +64,17 @@ def put(sums: Floats, rays: Floats, row: int, column: int, width: int, out: Floa
 @kernel
 def combine(
     scene: Scene,
-    rays: Floats,
-    ends: Floats,
-    owners: Ints,
+    held: Scratch,
     slots: int,
     rows: int,
     columns: int,
-    masks: Ints,
-    wrong: Ints,
-    met: Ints,
-    events: Floats,
-    order: Ints,
-    factors: Floats,
-    sums: Floats,
-    present: Flags,
-    nodes: Ints,
-    kept: Ints,
     out: Floats,
 ) -> bool:
     """Fill ``out`` (M, rows, columns) from the slots of a tile; False where there are too many."""
+    rays, ends, owners = held.rays, held.ends, held.owners
+    masks, wrong, met = held.masks, held.wrong, held.met
+    events, order, factors, sums = held.events, held.order, held.factors, held.sums
+    present, nodes, kept = held.present, held.nodes, held.kept
     leaves = len(scene.leaf_radius)
     root = len(scene.parent) - 1
     channels = out.shape[0]

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from phantom.compiled.layout import Scene
 from phantom.geometry import tolerances
 from phantom.scene import Phantom
+from phantom.tracing.fields import leaf_fields, segment_fields
 from phantom.tracing.pool import cut_bands, run_bands
 
 Floats = NDArray[np.float64]
 
-_BAND_PIXELS = 16384
+_BAND_PIXELS = 65536
 _ROOM = 256
+_SLOTS = 64
 
 
 def raster(
@@ -52,53 +56,82 @@ def raster(
 
     Returns
     -------
-    ``(rows, columns, M)`` mm of each material between source and pixel.
+    ``(rows, columns, M)`` mm of each material between source and pixel; the pixels of one material
+    lie together.
 
     Raises
     ------
     CancelledError
         Where ``cancelled`` said yes.
     """
-    from phantom.kernels import rays as kernels
+    from phantom.kernels.lanes import TILE_COLUMNS, TILE_ROWS
+    from phantom.kernels.scratch import Scratch, scratch
+    from phantom.kernels.tiles import tiles
 
-    first = np.ascontiguousarray(first_pixel, dtype=np.float64)
-    across = np.ascontiguousarray(column_step, dtype=np.float64)
-    down = np.ascontiguousarray(row_step, dtype=np.float64)
-    parallel = source is None
-    if source is not None:
-        origin = np.ascontiguousarray(source, dtype=np.float64)
-    else:
-        along = np.asarray(direction, dtype=np.float64)
-        along = along / np.linalg.norm(along)
-        origin = -along * _before(phantom, along, first, across * (columns - 1), down * (rows - 1))
-    out = np.zeros((rows, columns, len(phantom.material_names)))
+    scene = phantom.compiled.scene
+    view = _view(phantom, source, direction, first_pixel, column_step, row_step, columns, rows)
+    seen = leaf_fields(scene, view, rows, columns), segment_fields(scene, view, rows, columns)
+    out = np.zeros((len(phantom.material_names), rows, columns))
+    size = max(1, _BAND_PIXELS // max(columns, 1) // TILE_ROWS) * TILE_ROWS
+    slots = 2 * len(scene.leaf_radius) + _SLOTS
+    own = threading.local()
 
     def band(start: int, end: int) -> None:
-        room, at = _ROOM, start
-        counter = np.zeros(1, dtype=np.int64)
-        while at < end:
-            stopped = kernels.raster(
-                phantom.compiled.scene,
-                origin,
-                parallel,
-                first,
-                across,
-                down,
-                at,
-                tolerances.CHORD_MM,
-                room,
-                out[at:end],
-                counter,
-            )
-            if stopped < 0:
-                return
-            # The row that ran out of room is done anew, whole.
-            out[at + stopped] = 0.0
-            at, room = at + stopped, 4 * room
+        held: Scratch | None = getattr(own, "scratch", None)
+        if held is None:
+            held = own.scratch = scratch(scene, len(out), slots)
+        failed = np.empty((-(-size // TILE_ROWS) * -(-columns // TILE_COLUMNS), 2), dtype=np.int64)
+        count = tiles(scene, view, *seen, start, end, tolerances.CHORD_MM, held, out, failed)
+        for row, column in failed[:count]:
+            tile = out[:, row : min(row + TILE_ROWS, end), column : column + TILE_COLUMNS]
+            _ray_by_ray(scene, view, int(row), int(column), tile)
 
-    size = max(1, _BAND_PIXELS // max(columns, 1))
     run_bands(band, cut_bands(rows, size), workers=workers, cancelled=cancelled, progress=progress)
-    return out
+    return np.moveaxis(out, 0, -1)
+
+
+def _view(
+    phantom: Phantom,
+    source: Floats | None,
+    direction: Floats | None,
+    first_pixel: Floats,
+    column_step: Floats,
+    row_step: Floats,
+    columns: int,
+    rows: int,
+) -> Floats:
+    """Return (6, 3): origin, its steps to the next row and column, way to the pixel, its steps."""
+    first, across, down = (
+        np.asarray(a, dtype=np.float64) for a in (first_pixel, column_step, row_step)
+    )
+    view = np.zeros((6, 3))
+    if source is not None:
+        view[0], view[3] = source, first - np.asarray(source, dtype=np.float64)
+        view[4], view[5] = down, across
+        return view
+    along = np.asarray(direction, dtype=np.float64)
+    along = along / np.linalg.norm(along)
+    along *= _before(phantom, along, first, across * (columns - 1), down * (rows - 1))
+    view[0], view[1], view[2], view[3] = first - along, down, across, along
+    return view
+
+
+def _ray_by_ray(scene: Scene, view: Floats, row: int, column: int, out: Floats) -> None:
+    """Fill a tile (M, rows, columns) that meets more than the batched kernels have room for."""
+    from phantom.kernels import rays as kernels
+
+    found = np.zeros((*out.shape[1:], out.shape[0]))
+    at, room, counter = 0, _ROOM, np.zeros(1, dtype=np.int64)
+    while at < len(found):
+        stopped = kernels.raster(
+            scene, view, row + at, column, tolerances.CHORD_MM, room, found[at:], counter
+        )
+        if stopped < 0:
+            break
+        # The row that ran out of room is done anew, whole.
+        found[at + stopped] = 0.0
+        at, room = at + stopped, 4 * room
+    out[:] = np.moveaxis(found, -1, 0)
 
 
 def _before(phantom: Phantom, along: Floats, first: Floats, width: Floats, height: Floats) -> float:
