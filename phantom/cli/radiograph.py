@@ -73,11 +73,28 @@ def make(
         str | None,
         _word("signal, transmission, line_integral or path_lengths.", "NAME", "--quantity"),
     ] = None,
-    mode: Annotated[str | None, _word("How grey is chosen.", "stretch", "--mode")] = None,
+    mode: Annotated[
+        str | None, _word("How grey is chosen.", "stretch|window|percentile|equalise", "--mode")
+    ] = None,
+    scope: Annotated[
+        str | None, _word("What the greys depend on.", "image|fixed", "--scope")
+    ] = None,
+    window_center: Annotated[
+        str | None, _word("Line integral in the middle of the greys.", "X", "--window-center")
+    ] = None,
+    window_width: Annotated[
+        str | None, _word("Line integrals that the greys span.", "X", "--window-width")
+    ] = None,
+    percentiles: Annotated[
+        str | None, _word("What becomes black and white.", "[LOW,HIGH]", "--percentiles")
+    ] = None,
     polarity: Annotated[
         str | None, _word("Which end bones have.", "bones_white|bones_dark", "--polarity")
     ] = None,
     bits: Annotated[str | None, _word("Of a grey level.", "8|16", "--bits")] = None,
+    gsdf: Annotated[
+        str | None, _word("The display's luminances and response.", "JSON", "--gsdf")
+    ] = None,
     sidecar: Annotated[
         bool, typer.Option("--sidecar", help="Write the metadata beside it, as .json.")
     ] = False,

@@ -2,11 +2,23 @@
 
 from phantom.imaging.beam import Beam, attenuations_per_mm
 from phantom.imaging.camera import Projection, box_corners, projection
+from phantom.imaging.detection import (
+    Absorber,
+    Acquisition,
+    Blur,
+    DetectorModel,
+    Digitizer,
+    FocalSpot,
+    Grid,
+    NoiseKey,
+    Scatter,
+)
 from phantom.imaging.exposure import radiograph
+from phantom.imaging.gsdf import Gsdf
 from phantom.imaging.metadata import document_sha256
 from phantom.imaging.placement import covering, place, preset_view
 from phantom.imaging.poses import PRESETS, Pose, PresetName, pose
-from phantom.imaging.presentation import Presentation, present
+from phantom.imaging.presentation import Presentation, contrast_jnd, present
 from phantom.imaging.presets import DetectorGrid, Preset
 from phantom.imaging.result import IMAGES, QUANTITIES, Quantity, Radiograph
 from phantom.imaging.spectrum import Spectrum
@@ -16,9 +28,18 @@ __all__ = [
     "IMAGES",
     "PRESETS",
     "QUANTITIES",
+    "Absorber",
+    "Acquisition",
     "Beam",
+    "Blur",
     "Detector",
     "DetectorGrid",
+    "DetectorModel",
+    "Digitizer",
+    "FocalSpot",
+    "Grid",
+    "Gsdf",
+    "NoiseKey",
     "Pose",
     "Presentation",
     "Preset",
@@ -26,10 +47,12 @@ __all__ = [
     "Projection",
     "Quantity",
     "Radiograph",
+    "Scatter",
     "Spectrum",
     "View",
     "attenuations_per_mm",
     "box_corners",
+    "contrast_jnd",
     "covering",
     "document_sha256",
     "place",

@@ -27,6 +27,7 @@ from phantom.imaging import (
     radiograph,
 )
 from phantom.imaging.beam import DEFAULT_ANODE
+from phantom.imaging.presentation import OF_MODE
 from phantom.requests.limits import Limits
 from phantom.requests.subject import LibraryPhantom, Subject, read_request
 from phantom.requests.viewpoint import PlacedView, PresetView, Viewpoint, view_of
@@ -90,6 +91,12 @@ class RadiographPlan:
             held = ", ".join(format.quantities)
             message = f"found {self.quantity!r}, but {format.name} holds one of {held}"
             raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
+        display = self.presentation.gsdf
+        if format.name == "dicom" and display is not None and display.response is not None:
+            message = "found a response, but a DICOM file holds P-values; expected none"
+            raise InvalidInputError(
+                [Problem("/presentation/gsdf/response", "not_in_format", message)]
+            )
 
     def render(
         self,
@@ -135,7 +142,7 @@ def plan(
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
-    presentation = _filled(request.presentation, polarity=technique.polarity)
+    presentation = _presentation(request.presentation, technique)
     chosen = {
         **_placing(phantom, request.view, view, recommended),
         "columns": detector.columns,
@@ -143,7 +150,7 @@ def plan(
         "pitch_mm": detector.pitch_mm,
         **_beam_words(beam),
         "quantity": request.quantity,
-        **presentation.model_dump(),
+        **presentation.model_dump(exclude_none=True),
     }
     return RadiographPlan(
         phantom, view, beam, request.quantity, presentation, chosen, request.blind
@@ -155,6 +162,30 @@ def _filled(model: ModelT, **defaults: object) -> ModelT:
     said = {name: getattr(model, name) for name in model.model_fields_set}
     content = {**model.model_dump(), **defaults, **said}
     return cast("ModelT", model.model_construct(_fields_set=model.model_fields_set, **content))
+
+
+def _presentation(asked: Presentation, technique: library.Technique) -> Presentation:
+    """Return the presentation with what the request left out as the technique has it.
+
+    The technique's window is used where the request wants a window but gives none, or says nothing
+    of the mapping at all.
+
+    Raises
+    ------
+    InvalidInputError
+        A window is wanted and there is none.
+    """
+    usual: dict[str, object] = {"polarity": technique.polarity}
+    silent = not {"mode", "scope", *OF_MODE} & asked.model_fields_set
+    wanting = asked.mode == "window" and asked.window_center is None
+    if technique.window is not None and (silent or wanting):
+        center, width = technique.window
+        usual |= {"mode": "window", "scope": "fixed"}
+        usual |= {"window_center": center, "window_width": width}
+    filled = _filled(asked, **usual)
+    if filled.mode == "window":
+        _ = filled.window  # refused here, before anything is traced
+    return filled
 
 
 def _beam(asked: Beam, technique: library.Technique) -> Beam:

@@ -28,8 +28,13 @@ WORDS: Mapping[str, tuple[str, ...]] = {
     "filtration": ("beam", "filtration_mm"),
     "quantity": ("quantity",),
     "mode": ("presentation", "mode"),
+    "scope": ("presentation", "scope"),
+    "window_center": ("presentation", "window_center"),
+    "window_width": ("presentation", "window_width"),
+    "percentiles": ("presentation", "percentiles"),
     "polarity": ("presentation", "polarity"),
     "bits": ("presentation", "bits"),
+    "gsdf": ("presentation", "gsdf"),
     "blind": ("blind",),
 }
 """Where each word's value stands in a request."""

@@ -43,6 +43,11 @@ DOCUMENTS = {
 }  # fmt: skip
 
 WORDS: dict[str, dict[str, str]] = {
+    "a window without width": {"window_center": "1", "window_width": "0"},
+    "a display whose white is its black": {"gsdf": '{"l_min_cd_m2": 1, "l_max_cd_m2": 1}'},
+    "a response that falls": {
+        "gsdf": '{"l_min_cd_m2": 1, "l_max_cd_m2": 9, "response": [[0, 9], [255, 1]]}'
+    },
     "no such view": {"view": "sideways"},
     "no pixels": {"columns": "0", "rows": "-3"},
     "too many pixels": {"columns": "16384", "rows": "16384"},

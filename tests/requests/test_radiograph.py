@@ -8,6 +8,7 @@ import dataclasses
 import pytest
 
 from phantom import library
+from phantom.encode import format_named
 from phantom.errors import InvalidInputError
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import plan
@@ -83,6 +84,43 @@ def breast(monkeypatch):
     monkeypatch.setattr(library, "entry", lambda _: entry)
 
 
+@pytest.fixture
+def windowed(monkeypatch):
+    """The sphere, shown in a window of its own in every view."""
+    technique = library.Technique(window=(1.5, 3.0))
+    entry = dataclasses.replace(library.entry("sphere"), technique=technique)
+    monkeypatch.setattr(library, "entry", lambda _: entry)
+
+
+@pytest.mark.usefixtures("windowed")
+def test_a_phantom_with_a_window_is_shown_in_it_unless_asked_otherwise():
+    def shown(**wanted):
+        p = plan(SPHERE | {"presentation": wanted}).presentation
+        return p.mode, p.scope, p.window_center, p.window_width
+
+    fixed = ("window", "fixed", 1.5, 3.0)
+    assert shown() == shown(bits=16) == shown(scope="fixed") == shown(mode="window") == fixed
+    assert shown(mode="stretch") == ("stretch", "image", None, None)
+    assert shown(scope="image") == ("stretch", "image", None, None)
+    assert shown(percentiles=[5, 95])[:2] == ("percentile", "image")
+    assert shown(window_center=1, window_width=1) == ("window", "fixed", 1, 1)
+
+
+def test_a_window_that_nobody_gave_is_asked_for_before_anything_is_traced():
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(SPHERE | {"presentation": {"scope": "fixed"}})
+    assert paths(refusal) == ["/presentation/window_center"]
+
+
+def test_drive_levels_are_no_p_values_and_so_no_dicom():
+    display = {"l_min_cd_m2": 1, "l_max_cd_m2": 300, "response": [[0, 1], [255, 300]]}
+    planned = plan(SPHERE | {"presentation": {"gsdf": display}})
+    planned.check_format(format_named("png"))
+    with pytest.raises(InvalidInputError) as refusal:
+        planned.check_format(format_named("dicom"))
+    assert paths(refusal) == ["/presentation/gsdf/response"]
+
+
 @pytest.mark.usefixtures("breast")
 def test_the_technique_is_that_of_the_phantom_and_the_view():
     beam = plan(SPHERE).beam
@@ -107,6 +145,9 @@ def test_any_difference_makes_another_request():
         SPHERE | {"beam": {"energy_kev": 61}},
         SPHERE | {"quantity": "transmission"},
         SPHERE | {"presentation": {"bits": 16}},
+        SPHERE | {"presentation": {"mode": "equalise"}},
+        SPHERE | {"presentation": {"percentiles": [2, 98]}},
+        SPHERE | {"presentation": {"gsdf": {"l_min_cd_m2": 1, "l_max_cd_m2": 300}}},
         SPHERE | {"detector": {"columns": 1023}},
         {"phantom": {"name": "sphere", "parameters": {"radius_mm": 25.000001}}},
         {"phantom": {"document": DOCUMENT}},
