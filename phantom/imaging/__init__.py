@@ -22,10 +22,13 @@ from phantom.imaging.presentation import Presentation, contrast_jnd, present
 from phantom.imaging.presets import DetectorGrid, Preset
 from phantom.imaging.result import IMAGES, QUANTITIES, Quantity, Radiograph
 from phantom.imaging.spectrum import Spectrum
+from phantom.imaging.truth import KINDS, LeafTruth, Truth
+from phantom.imaging.truth_trace import ground_truth
 from phantom.imaging.view import Detector, View
 
 __all__ = [
     "IMAGES",
+    "KINDS",
     "PRESETS",
     "QUANTITIES",
     "Absorber",
@@ -39,6 +42,7 @@ __all__ = [
     "FocalSpot",
     "Grid",
     "Gsdf",
+    "LeafTruth",
     "NoiseKey",
     "Pose",
     "Presentation",
@@ -49,12 +53,14 @@ __all__ = [
     "Radiograph",
     "Scatter",
     "Spectrum",
+    "Truth",
     "View",
     "attenuations_per_mm",
     "box_corners",
     "contrast_jnd",
     "covering",
     "document_sha256",
+    "ground_truth",
     "place",
     "pose",
     "present",

@@ -16,6 +16,7 @@ it averages what comes through (after the exponential), not path lengths.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, Literal, get_args
@@ -30,6 +31,7 @@ from phantom.imaging.detection import Acquisition, DetectorModel, Exposed, Noise
 from phantom.imaging.detection.scintillator import response as photon_response
 from phantom.imaging.presentation import GreyArray, Presentation, present
 from phantom.imaging.spectrum import Spectrum
+from phantom.imaging.truth import KINDS, Truth
 from phantom.imaging.tube import spectrum_stages
 from phantom.imaging.view import FloatArray, View
 
@@ -157,7 +159,27 @@ class Radiograph:
         if name not in IMAGES:
             message = f"{name!r} is no image; a picture shows one of {', '.join(IMAGES)}"
             raise InvalidInputError([Problem("/quantity", "not_an_image", message)])
-        return present(image, presentation, rises_with_attenuation=name == "line_integral")
+        return present(
+            image,
+            presentation,
+            rises_with_attenuation=name == "line_integral",
+            open_field=self.open_field if name == "signal" else 1.0,
+        )
+
+    def truth(self, kinds: Iterable[str] = KINDS, **run: Any) -> Truth:
+        """Return what the picture shows, leaf by leaf; see :func:`phantom.imaging.ground_truth`.
+
+        Parameters
+        ----------
+        kinds
+            Some of ``masks``, ``thickness``, ``boxes``, ``entry_depth``, ``centroids`` and
+            ``landmarks``.
+        run
+            ``workers``, ``cancelled`` and ``progress``, as in :func:`phantom.imaging.radiograph`.
+        """
+        from phantom.imaging.truth_trace import ground_truth
+
+        return ground_truth(self.phantom, self.view, kinds, **run)
 
     @cached_property
     def projection(self) -> Projection:
