@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from phantom.cli.console import Bar, answer, reporting, say
-from phantom.cli.options import AsJson, Settings, subject
+from phantom.cli.options import AsJson, Settings, json_text, subject
 
 if TYPE_CHECKING:
     from phantom.imaging import Radiograph
@@ -69,6 +69,36 @@ def make(
     filtration: Annotated[
         str | None, _word("Filters of the tube.", "MATERIAL=MM,…|none", "--filtration")
     ] = None,
+    acquisition: Annotated[
+        str | None,
+        _word("Dose, focal spot, scatter, detector: a file or JSON.", "FILE|JSON", "--acquisition"),
+    ] = None,
+    dose_ugy: Annotated[
+        str | None, _word("Air kerma at the detector in the open field.", "UGY", "--dose-ugy")
+    ] = None,
+    mas: Annotated[str | None, _word("Tube load, in place of the dose.", "MAS", "--mas")] = None,
+    falloff: Annotated[
+        str | None,
+        _word("Of the open field.", "none|inverse_square_cosine", "--falloff"),
+    ] = None,
+    focal_spot_mm: Annotated[
+        str | None, _word("Size of the focal spot.", "MM|[MM,MM]", "--focal-spot-mm")
+    ] = None,
+    scatter: Annotated[
+        bool | None, typer.Option("--scatter/--no-scatter", help="Scattered radiation.")
+    ] = None,
+    grid: Annotated[
+        str | None,
+        _word("Transmissions of an anti-scatter grid.", "PRIMARY,SCATTER|none", "--grid"),
+    ] = None,
+    samples: Annotated[
+        str | None, _word("Rays a pixel, across and down.", "N|[N,N]", "--samples")
+    ] = None,
+    quantum_noise: Annotated[
+        str | None, _word("How photons are drawn.", "off|compound|per_bin", "--quantum-noise")
+    ] = None,
+    seed: Annotated[str | None, _word("Of the noise.", "N", "--seed")] = None,
+    case: Annotated[str | None, _word("Of a series, for its noise.", "N", "--case")] = None,
     quantity: Annotated[
         str | None,
         _word("signal, transmission, line_integral or path_lengths.", "NAME", "--quantity"),
@@ -106,12 +136,14 @@ def make(
     as_json: AsJson = False,
 ) -> None:
     """X-ray a phantom of the library, or a document, and write the picture."""
-    options = {**locals(), "blind": None if blind is None else str(blind).lower()}
+    options = {**locals(), "blind": _truth(blind), "scatter": _truth(scatter)}
     with reporting(as_json=as_json):
         from phantom.encode import format_of_path
         from phantom.requests.radiograph import plan
         from phantom.requests.words import WORDS, request_tree
 
+        if acquisition is not None:
+            options["acquisition"] = json_text(acquisition, "/acquisition")
         given = {word: options[word] for word in WORDS if options[word] is not None}
         planned = plan(*request_tree(subject(target, settings), given.items()))
         pose = planned.chosen.get("view", "view")
@@ -123,6 +155,11 @@ def make(
             say(f"warning: {warning}")
         if as_json:
             answer({"output": str(path), **beside})
+
+
+def _truth(flag: bool | None) -> str | None:
+    """Return a flag as a query string has it."""
+    return None if flag is None else str(flag).lower()
 
 
 def _tell_defaults(

@@ -18,8 +18,10 @@ from phantom.document.base import Boolean
 from phantom.encode import Format
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import (
+    Acquisition,
     Beam,
     DetectorGrid,
+    NoiseKey,
     Presentation,
     Radiograph,
     View,
@@ -28,6 +30,8 @@ from phantom.imaging import (
 )
 from phantom.imaging.beam import DEFAULT_ANODE
 from phantom.imaging.presentation import OF_MODE
+from phantom.imaging.refusals import check_exposure
+from phantom.requests.exposures import check_cost, words_of
 from phantom.requests.limits import Limits
 from phantom.requests.subject import LibraryPhantom, Subject, read_request
 from phantom.requests.viewpoint import PlacedView, PresetView, Viewpoint, view_of
@@ -48,6 +52,13 @@ class RadiographRequest(Model):
         default_factory=DetectorGrid
     )
     beam: Annotated[Beam, told("Beam", "none", "The photons.")] = Field(default_factory=Beam)
+    acquisition: Annotated[
+        Acquisition | None,
+        told("Acquisition", "none", "Dose, focal spot, scatter, detector; null for an ideal one."),
+    ] = None
+    noise: Annotated[NoiseKey, told("Noise", "none", "Whose noise an acquisition has.")] = Field(
+        default_factory=NoiseKey
+    )
     quantity: Annotated[Quantity, told("Quantity", "none", "What a pixel holds.")] = "signal"
     presentation: Annotated[Presentation, told("Presentation", "none", "How it is shown.")] = Field(
         default_factory=Presentation
@@ -64,6 +75,9 @@ class RadiographPlan:
     phantom: Phantom
     view: View
     beam: Beam
+    acquisition: Acquisition | None
+    noise: NoiseKey | None
+    """None where the request says nothing of it."""
     quantity: Quantity
     presentation: Presentation
     chosen: dict[str, object]
@@ -78,12 +92,20 @@ class RadiographPlan:
             "document": document_sha256(self.phantom.document),
             "view": self.view.model_dump(mode="json"),
             "beam": self.beam.model_dump(mode="json"),
+            **self._exposure(),
             "quantity": self.quantity,
             "presentation": self.presentation.model_dump(mode="json"),
             "blind": self.blind,
         }
         canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
         return hashlib.sha256(canonical.encode()).hexdigest()
+
+    def _exposure(self) -> dict[str, object]:
+        """Return what the detector's image depends on; nothing for an ideal one."""
+        if self.acquisition is None:
+            return {}
+        noise = (self.noise or NoiseKey()).model_dump(mode="json")
+        return {"acquisition": self.acquisition.model_dump(mode="json"), "noise": noise}
 
     def check_format(self, format: Format) -> None:
         """Refuse a file format that cannot hold the quantity, before anything is traced."""
@@ -112,7 +134,13 @@ class RadiographPlan:
             ``cancelled()`` turned true.
         """
         return radiograph(
-            self.phantom, self.view, self.beam, cancelled=cancelled, progress=progress
+            self.phantom,
+            self.view,
+            self.beam,
+            acquisition=self.acquisition,
+            noise=self.noise,
+            cancelled=cancelled,
+            progress=progress,
         )
 
 
@@ -138,10 +166,14 @@ def plan(
     # A detector is square where only its columns are given.
     if "rows" not in grid.model_fields_set:
         grid = grid.model_copy(update={"rows": grid.columns})
-    (limits or Limits()).check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
+    limits = limits or Limits()
+    limits.check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
+    acquisition, noise = request.acquisition, request.noise
+    check_cost(acquisition, detector, beam, phantom.document.materials, limits)
+    check_exposure(phantom, view, beam, acquisition)
     presentation = _presentation(request.presentation, technique)
     chosen = {
         **_placing(phantom, request.view, view, recommended),
@@ -149,11 +181,20 @@ def plan(
         "rows": detector.rows,
         "pitch_mm": detector.pitch_mm,
         **_beam_words(beam),
+        **words_of(acquisition, noise),
         "quantity": request.quantity,
         **presentation.model_dump(exclude_none=True),
     }
     return RadiographPlan(
-        phantom, view, beam, request.quantity, presentation, chosen, request.blind
+        phantom,
+        view,
+        beam,
+        acquisition,
+        noise if "noise" in request.model_fields_set else None,
+        request.quantity,
+        presentation,
+        chosen,
+        request.blind,
     )
 
 

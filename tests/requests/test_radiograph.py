@@ -239,3 +239,58 @@ def test_the_cost_is_counted_first(limits, detector):
         plan(SPHERE | {"detector": detector}, limits=limits)
     assert [(p.path, p.kind) for p in refusal.value.problems] == [("/detector", "too_large")]
     assert plan(SPHERE | {"detector": {"columns": 9}}, limits=limits)
+
+
+DOSE = {"detector_air_kerma_ugy": 1.0}
+
+
+def test_an_exposure_makes_another_request_and_so_does_its_seed():
+    requests = [
+        SPHERE,
+        SPHERE | {"acquisition": {}},
+        SPHERE | {"acquisition": DOSE},
+        SPHERE | {"acquisition": DOSE, "noise": {"seed": 1}},
+        SPHERE | {"acquisition": DOSE, "noise": {"case": 1}},
+        SPHERE | {"acquisition": DOSE | {"scatter": {}}},
+        SPHERE | {"acquisition": DOSE | {"detector": {"response": "photon_counting"}}},
+    ]
+    assert len({plan(request).fingerprint() for request in requests}) == len(requests)
+    same = [{"acquisition": {}}, {"acquisition": {"samples_per_pixel": [1, 1]}, "noise": {}}]
+    assert len({plan(SPHERE | request).fingerprint() for request in same}) == 1
+
+
+def test_a_seed_without_an_exposure_is_told_to_do_nothing():
+    made = plan(SPHERE | {"detector": {"columns": 4}, "noise": {"seed": 3}}).render()
+    assert any("seed has no effect" in warning for warning in made.warnings)
+    assert plan(SPHERE | {"detector": {"columns": 4}}).render().warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("limits", "acquisition"),
+    [
+        (
+            Limits(exposure_rays=100 * 4 * 6 - 1),
+            {"focal_spot": {"size_mm": [1, 1], "points": [2, 3]}},
+        ),
+        # One material: its path lengths and three sums, for each of 400 samples.
+        (Limits(result_bytes=8 * 400 * 4), {}),
+    ],
+)
+def test_an_exposure_that_costs_too_much_is_refused(limits, acquisition):
+    request = SPHERE | {
+        "detector": {"columns": 10},
+        "acquisition": {**DOSE, "samples_per_pixel": [2, 2], **acquisition},
+    }
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(request, limits=limits)
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/acquisition", "too_large")]
+    plan(request)
+
+
+def test_drawing_every_bin_holds_an_image_a_bin():
+    request = SPHERE | {"detector": {"columns": 10}, "beam": {"kvp": 120}}
+    limits = Limits(result_bytes=8 * 100 * 60)
+    plan(request | {"acquisition": {"quantum_noise": "compound"}}, limits=limits)
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(request | {"acquisition": {"quantum_noise": "per_bin"}}, limits=limits)
+    assert paths(refusal) == ["/acquisition"]
