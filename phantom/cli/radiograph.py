@@ -125,6 +125,15 @@ def make(
     gsdf: Annotated[
         str | None, _word("The display's luminances and response.", "JSON", "--gsdf")
     ] = None,
+    truth: Annotated[
+        str | None, _word("Ground truth of every named leaf.", "KIND,…|all", "--truth")
+    ] = None,
+    truth_output: Annotated[
+        str | None,
+        typer.Option(
+            "--truth-output", help="Where the ground truth goes to.", metavar="DIR|FILE.zip"
+        ),
+    ] = None,
     sidecar: Annotated[
         bool, typer.Option("--sidecar", help="Write the metadata beside it, as .json.")
     ] = False,
@@ -144,15 +153,20 @@ def make(
 
         if acquisition is not None:
             options["acquisition"] = json_text(acquisition, "/acquisition")
+        if truth_output is not None and truth is None:
+            options["truth"] = "all"
         given = {word: options[word] for word in WORDS if options[word] is not None}
         planned = plan(*request_tree(subject(target, settings), given.items()))
         pose = planned.chosen.get("view", "view")
         path = Path(output or f"{planned.phantom.document.name}-{pose}.png")
         planned.check_format(format_of_path(path))
+        beside_it = _truth_path(planned, truth_output, path)
         _tell_defaults(planned, given, None if output else path)
         made, beside = _render(planned, path, sidecar=sidecar, quiet=as_json)
         for warning in made.warnings:
             say(f"warning: {warning}")
+        if beside_it is not None:
+            _write_truth(planned, beside_it, path)
         if as_json:
             answer({"output": str(path), **beside})
 
@@ -192,6 +206,31 @@ def _render(
     )
     say(f"wrote {path}")
     return made, saved.beside
+
+
+def _truth_path(planned: RadiographPlan, output: str | None, picture: Path) -> Path | None:
+    """Return where the ground truth goes to, by default beside the picture; None without any."""
+    from phantom.encode.truth import check_truth_path
+    from phantom.errors import InvalidInputError, Problem
+
+    if not planned.truth:
+        if output is None:
+            return None
+        message = "found a place for ground truth without kinds of it; expected some"
+        raise InvalidInputError([Problem("/truth", "missing", message)])
+    path = Path(output) if output is not None else picture.with_name(f"{picture.stem}-truth.zip")
+    check_truth_path(path)
+    return path
+
+
+def _write_truth(planned: RadiographPlan, output: Path, picture: Path) -> None:
+    """Trace the ground truth and write it."""
+    from phantom.encode import save_truth
+
+    with Bar("tracing the leaves") as bar:
+        truth = planned.tell(progress=bar)
+    save_truth(truth, output, picture.name)
+    say(f"wrote {output}")
 
 
 def _short(value: object) -> str:

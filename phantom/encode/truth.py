@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from typing import Any, Protocol
+from pathlib import Path
+from typing import Any, Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from phantom.encode.archive import archive
 from phantom.encode.coco import Annotated, coco
+from phantom.encode.files import write_atomically
 from phantom.encode.npy import npy
 from phantom.encode.png import png
+from phantom.errors import InvalidInputError, Problem
+
+ZIP_SUFFIX: Final = ".zip"
 
 
 class LeafMaps(Annotated, Protocol):
@@ -83,6 +89,50 @@ def truth_files(truth: Told, image_name: str = "image.png") -> dict[str, bytes]:
     if "masks" in truth.kinds:
         first["coco.json"] = _json(coco(truth.leaves, truth.size, image_name, truth.centroids_px))
     return first | files
+
+
+def save_truth(truth: Told, path: Path | str, image_name: str = "image.png") -> tuple[str, ...]:
+    """Write a ground truth to a folder, or to an archive if the path ends in ``.zip``.
+
+    Every file is whole or not there; a folder is made where there is none. Returns the files'
+    names, as in :func:`truth_files`.
+
+    Raises
+    ------
+    InvalidInputError
+        The folder to write into is not there (``/truth``), see :func:`check_truth_path`.
+    """
+    path = Path(path)
+    check_truth_path(path)
+    files = truth_files(truth, image_name)
+    if path.suffix.lower() == ZIP_SUFFIX:
+        write_atomically(path, archive(files))
+        return tuple(files)
+    for name, data in files.items():
+        (path / name).parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(path / name, data)
+    return tuple(files)
+
+
+def check_truth_path(path: Path | str) -> None:
+    """Refuse a place that a ground truth cannot be written to, before it is made.
+
+    Raises
+    ------
+    InvalidInputError
+        Its folder is not there, it is a folder that ends in ``.zip``, or a file that does not.
+    """
+    path = Path(path)
+    if not path.parent.is_dir():
+        message = f"found no folder {str(path.parent)!r} to write into"
+        raise InvalidInputError([Problem("/truth", "missing_folder", message)])
+    if path.suffix.lower() == ZIP_SUFFIX:
+        if path.is_dir():
+            message = f"found a folder at {str(path)!r}, expected an archive's name"
+            raise InvalidInputError([Problem("/truth", "is_a_folder", message)])
+    elif path.exists() and not path.is_dir():
+        message = f"found a file at {str(path)!r}, expected a folder, or a name ending in .zip"
+        raise InvalidInputError([Problem("/truth", "is_a_file", message)])
 
 
 def _json(tree: object) -> bytes:

@@ -142,7 +142,7 @@ def check_kinds(kinds: Iterable[str]) -> tuple[Kind, ...]:
     """
     given = [kinds] if isinstance(kinds, str) else list(kinds)
     unknown = [
-        Problem(f"/truth/{i}", "unknown_kind", f"found {k!r}; expected one of {', '.join(KINDS)}")
+        Problem(f"/truth/{i}", "unknown_value", f"found {k!r}; expected one of {', '.join(KINDS)}")
         for i, k in enumerate(given)
         if k not in KINDS
     ]

@@ -82,11 +82,23 @@ def grid(text: str, path: Path) -> Read:
     return {"primary_transmission": primary, "scatter_transmission": scatter}, ()
 
 
+def kinds(text: str, path: Path) -> Read:
+    """Return KIND,KIND,… as an array, every kind of ground truth for ``all``; or JSON."""
+    from phantom.imaging.truth import KINDS
+
+    if text.strip() == "all":
+        return list(KINDS), ()
+    if text.strip()[:1] == "[":
+        return scalar(text), ()
+    return [part.strip() for part in text.split(",") if part.strip()], ()
+
+
 FORMS: Final[Mapping[str, Callable[[str, Path], Read]]] = {
     "filtration": filters,
     "scatter": switch,
     "grid": grid,
     "focal_spot_mm": both,
     "samples": both,
+    "truth": kinds,
 }
 """How the words with a way of their own are written; all others are :func:`plain`."""

@@ -16,6 +16,9 @@ IMAGES_PER_SAMPLE = 3
 IMAGES_PER_EXPOSURE = 24
 """The sums, noise, and the parts of a blur, while the detector's image is made."""
 
+MAPS_PER_LEAF = 2
+"""Thickness and entry depth of each leaf, where it fills the picture."""
+
 
 @dataclass(frozen=True, slots=True)
 class Limits:
@@ -65,6 +68,10 @@ class Limits:
         sampled = 0 if samples == points == 1 else samples * (materials + IMAGES_PER_SAMPLE)
         images = materials + IMAGES_PER_RADIOGRAPH + IMAGES_PER_EXPOSURE + bins
         self._check_bytes("/acquisition", pixels * (images + sampled))
+
+    def check_truth(self, columns: int, rows: int, leaves: int) -> None:
+        """Refuse ground truth of too many pixels times leaves, thickness and depth of each."""
+        self._check_bytes("/truth", columns * rows * leaves * MAPS_PER_LEAF)
 
     def check_rays(self, rays: int, materials: int) -> None:
         """Refuse too many rays, or too many of them times materials."""

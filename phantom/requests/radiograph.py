@@ -24,13 +24,17 @@ from phantom.imaging import (
     NoiseKey,
     Presentation,
     Radiograph,
+    Truth,
     View,
     document_sha256,
+    ground_truth,
     radiograph,
 )
 from phantom.imaging.beam import DEFAULT_ANODE
 from phantom.imaging.presentation import OF_MODE
 from phantom.imaging.refusals import check_exposure
+from phantom.imaging.truth import Kind
+from phantom.imaging.truth_trace import check_kinds, named_leaves
 from phantom.requests.exposures import check_cost, words_of
 from phantom.requests.limits import Limits
 from phantom.requests.subject import LibraryPhantom, Subject, read_request
@@ -63,6 +67,10 @@ class RadiographRequest(Model):
     presentation: Annotated[Presentation, told("Presentation", "none", "How it is shown.")] = Field(
         default_factory=Presentation
     )
+    truth: Annotated[
+        tuple[Kind, ...],
+        told("Ground truth", "none", "What to tell of every named leaf; the answer is an archive."),
+    ] = ()
     blind: Annotated[
         Boolean, told("Blind", "none", "True leaves out of the file what it says of itself.")
     ] = False
@@ -83,6 +91,8 @@ class RadiographPlan:
     chosen: dict[str, object]
     """The value of every flat word (`phantom.requests.words`) that has one."""
     blind: bool = False
+    truth: tuple[Kind, ...] = ()
+    """Kinds of ground truth; none for the picture alone."""
 
     def fingerprint(self) -> str:
         """Return a hash of all that the result depends on, the same for equal requests."""
@@ -96,6 +106,7 @@ class RadiographPlan:
             "quantity": self.quantity,
             "presentation": self.presentation.model_dump(mode="json"),
             "blind": self.blind,
+            "truth": self.truth,
         }
         canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
         return hashlib.sha256(canonical.encode()).hexdigest()
@@ -143,6 +154,23 @@ class RadiographPlan:
             progress=progress,
         )
 
+    def tell(
+        self,
+        *,
+        cancelled: Callable[[], bool] | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Truth:
+        """Trace its ground truth.
+
+        Raises
+        ------
+        CancelledError
+            ``cancelled()`` turned true.
+        """
+        return ground_truth(
+            self.phantom, self.view, self.truth, cancelled=cancelled, progress=progress
+        )
+
 
 def plan(
     tree: object, known: Iterable[Problem] = (), limits: Limits | None = None
@@ -168,6 +196,9 @@ def plan(
         grid = grid.model_copy(update={"rows": grid.columns})
     limits = limits or Limits()
     limits.check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
+    kinds = check_kinds(request.truth)
+    if kinds:
+        limits.check_truth(grid.columns, grid.rows, len(named_leaves(phantom)))
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
@@ -184,6 +215,7 @@ def plan(
         **words_of(acquisition, noise),
         "quantity": request.quantity,
         **presentation.model_dump(exclude_none=True),
+        **({"truth": ",".join(kinds)} if kinds else {}),
     }
     return RadiographPlan(
         phantom,
@@ -195,6 +227,7 @@ def plan(
         presentation,
         chosen,
         request.blind,
+        kinds,
     )
 
 

@@ -45,6 +45,7 @@ WORDS: Mapping[str, tuple[str, ...]] = {
     "polarity": ("presentation", "polarity"),
     "bits": ("presentation", "bits"),
     "gsdf": ("presentation", "gsdf"),
+    "truth": ("truth",),
     "blind": ("blind",),
 }
 """Where each word's value stands in a request."""

@@ -43,6 +43,7 @@ DOCUMENTS = {
 }  # fmt: skip
 
 WORDS: dict[str, dict[str, str]] = {
+    "an unknown kind of ground truth": {"truth": "masks,labels"},
     "a window without width": {"window_center": "1", "window_width": "0"},
     "a display whose white is its black": {"gsdf": '{"l_min_cd_m2": 1, "l_max_cd_m2": 1}'},
     "a response that falls": {

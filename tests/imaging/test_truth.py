@@ -275,7 +275,7 @@ def test_what_was_not_asked_for_is_not_told(balls: Phantom) -> None:
 def test_an_unknown_kind_is_a_problem(balls: Phantom) -> None:
     with pytest.raises(InvalidInputError) as refusal:
         ground_truth(balls, tilted(), ["masks", "labels"])
-    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/truth/1", "unknown_kind")]
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/truth/1", "unknown_value")]
 
 
 def test_a_cancelled_trace_gives_nothing(balls: Phantom) -> None:

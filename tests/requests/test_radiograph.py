@@ -19,6 +19,13 @@ DOCUMENT = {
     "materials": {"a": {"attenuation_per_mm": 1}},
     "solid": {"type": "sphere", "center": [5, 6, 7], "radius": 4, "material": "a"},
 }
+NAMED = {
+    **DOCUMENT,
+    "solid": {
+        "type": "overlap",
+        "solids": [{**DOCUMENT["solid"], "name": name} for name in ("a", "b", "c")],
+    },
+}
 
 
 def paths(refusal) -> list[str]:
@@ -121,6 +128,25 @@ def test_drive_levels_are_no_p_values_and_so_no_dicom():
     assert paths(refusal) == ["/presentation/gsdf/response"]
 
 
+def test_kinds_of_ground_truth_are_a_set():
+    one = plan(SPHERE | {"truth": ["boxes", "masks", "boxes"]})
+    assert one.truth == ("masks", "boxes")
+    assert one.fingerprint() == plan(SPHERE | {"truth": ["masks", "boxes"]}).fingerprint()
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(SPHERE | {"truth": ["masks", "labels"]})
+    assert paths(refusal) == ["/truth/1"]
+
+
+def test_ground_truth_too_large_to_hold_is_refused_before_it_is_traced():
+    pixels = 64 * 64
+    small = {"detector": {"columns": 64}, "phantom": {"document": NAMED}}
+    limits = Limits(result_bytes=pixels * 8 * 5)
+    plan(small, limits=limits)
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(small | {"truth": ["masks"]}, limits=limits)
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/truth", "too_large")]
+
+
 @pytest.mark.usefixtures("breast")
 def test_the_technique_is_that_of_the_phantom_and_the_view():
     beam = plan(SPHERE).beam
@@ -146,6 +172,8 @@ def test_any_difference_makes_another_request():
         SPHERE | {"quantity": "transmission"},
         SPHERE | {"presentation": {"bits": 16}},
         SPHERE | {"presentation": {"mode": "equalise"}},
+        SPHERE | {"truth": ["masks"]},
+        SPHERE | {"truth": ["boxes"]},
         SPHERE | {"presentation": {"percentiles": [2, 98]}},
         SPHERE | {"presentation": {"gsdf": {"l_min_cd_m2": 1, "l_max_cd_m2": 300}}},
         SPHERE | {"detector": {"columns": 1023}},
