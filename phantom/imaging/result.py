@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final, Literal, get_args
+from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, get_args
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from phantom.imaging.camera import Projection, projection
 from phantom.imaging.detection import Acquisition, DetectorModel, Exposed, NoiseKey
 from phantom.imaging.detection.scintillator import response as photon_response
 from phantom.imaging.presentation import GreyArray, Presentation, present
+from phantom.imaging.presentation_stage import presentation_stage
 from phantom.imaging.spectrum import Spectrum
 from phantom.imaging.truth import KINDS, Truth
 from phantom.imaging.tube import spectrum_stages
@@ -45,6 +46,11 @@ QUANTITIES: Final[tuple[Quantity, ...]] = get_args(Quantity)
 
 IMAGES: Final = QUANTITIES[:3]
 """The quantities with one value a pixel."""
+
+
+class _Scale(TypedDict):
+    rises_with_attenuation: bool
+    open_field: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,16 +161,27 @@ class Radiograph:
         self, name: str = "signal", presentation: Presentation | None = None
     ) -> GreyArray:
         """Return the grey levels of a quantity that has one value a pixel."""
+        return present(self._image(name), presentation, **self._scale(name))
+
+    def shown(
+        self, name: str = "signal", presentation: Presentation | None = None
+    ) -> dict[str, Any]:
+        """Return the stage that makes the grey levels, with its values, as plain JSON values."""
+        return presentation_stage(self._image(name), presentation, **self._scale(name))
+
+    def _image(self, name: str) -> FloatArray:
         image = self.quantity(name)
         if name not in IMAGES:
             message = f"{name!r} is no image; a picture shows one of {', '.join(IMAGES)}"
             raise InvalidInputError([Problem("/quantity", "not_an_image", message)])
-        return present(
-            image,
-            presentation,
-            rises_with_attenuation=name == "line_integral",
-            open_field=self.open_field if name == "signal" else 1.0,
-        )
+        return image
+
+    def _scale(self, name: str) -> _Scale:
+        """Return what a presentation must know of a quantity."""
+        return {
+            "rises_with_attenuation": name == "line_integral",
+            "open_field": self.open_field if name == "signal" else 1.0,
+        }
 
     def truth(self, kinds: Iterable[str] = KINDS, **run: Any) -> Truth:
         """Return what the picture shows, leaf by leaf; see :func:`phantom.imaging.ground_truth`.

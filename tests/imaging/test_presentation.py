@@ -9,6 +9,7 @@ import pytest
 
 from phantom.errors import InvalidInputError
 from phantom.imaging import Presentation, present
+from phantom.imaging.presentation_stage import presentation_stage
 
 RAMP = np.linspace(0.2, 0.7, 256).reshape(16, 16)
 
@@ -192,3 +193,38 @@ def test_what_contradicts_itself_is_refused(fields: Any, path: str, kind: str) -
         Presentation(**fields)
     found = {(p.path, p.kind) for p in refusal.value.problems}
     assert (f"/presentation/{path}", kind) in found
+
+
+@pytest.mark.parametrize(
+    ("wanted", "rises", "shown"),
+    [
+        ({}, False, [0.0, 200.0]),
+        ({"percentiles": (10, 90)}, False, [20.0, 180.0]),
+        ({"window_center": 100, "window_width": 50}, True, [75.0, 125.0]),
+        ({"window_center": 1, "window_width": 2}, False, [400 * np.exp(-2), 400.0]),
+        ({"mode": "equalise"}, False, None),
+    ],
+)
+def test_the_stage_tells_the_values_at_the_ends_of_the_scale(
+    wanted: Any, rises: bool, shown: Any
+) -> None:
+    image = np.arange(201.0).reshape(3, 67)
+    stage = presentation_stage(
+        image, Presentation(**wanted), rises_with_attenuation=rises, open_field=400
+    )
+    assert stage["stage"] == "presentation"
+    assert stage.get("shown") == (None if shown is None else pytest.approx(shown))
+    assert None not in stage.values()
+    assert "constant" not in stage
+
+
+def test_a_window_beyond_all_numbers_still_tells_its_stage() -> None:
+    wide = Presentation(window_center=0, window_width=1e6)
+    assert presentation_stage(RAMP, wide)["shown"] == [0.0, None]
+
+
+def test_the_stage_tells_of_a_constant_image_and_of_the_display() -> None:
+    display = {"l_min_cd_m2": 1, "l_max_cd_m2": 300}
+    stage = presentation_stage(np.ones((2, 2)), Presentation(gsdf=display))
+    assert (stage["constant"], stage["levels"]) == (True, "P-values")
+    assert stage["jnd_range"][0] < stage["jnd_range"][1]
