@@ -22,6 +22,7 @@ class Service:
         """Return the service that the settings describe."""
         limits = Limits(
             pixels=settings.max_pixels,
+            exposure_rays=settings.max_exposure_rays,
             rays=settings.max_rays,
             result_bytes=settings.max_result_bytes,
         )

@@ -31,6 +31,9 @@ class Settings(BaseModel):
     max_pixels: int = Field(4096 * 4096, ge=1)
     """Most pixels of one radiograph."""
 
+    max_exposure_rays: int = Field(2**28, ge=1)
+    """Most rays of one radiograph: pixels times samples of each times points of the focal spot."""
+
     max_rays: int = Field(1_000_000, ge=1)
     """Most rays of one path-length call."""
 

@@ -47,12 +47,16 @@ class Technique:
         as near as the phantom lets it.
     polarity
         ``bones_white``, or ``bones_dark`` as in the paper.
+    window
+        Centre and width of the one range of line integrals that is shown, so that no lesion and no
+        case shifts another's greys; None for a stretch of each image by itself, as in the paper.
     """
 
     energy_kev: float = 60.0
     source_detector_mm: float = 1150.0
     object_detector_mm: float | None = None
     polarity: str = "bones_white"
+    window: tuple[float, float] | None = None
     kvp: float | None = None
     anode: str | None = None
     filtration_mm: Mapping[str, float] | None = None

@@ -16,13 +16,17 @@ from api.problems import PROBLEMS
 from api.query import DESCRIBED, radiograph_tree
 from api.service import Service
 from phantom import library
-from phantom.encode import FORMATS, Encoded, encode, format_named
-from phantom.errors import Problem
+from phantom.encode import FORMATS, ZIP_MEDIA_TYPE, Encoded, encode, format_named
+from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import Radiograph
+from phantom.requests.bundle import bundle, picture_format
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest, plan
 
 OFFERS: Final = tuple(format.media_type for format in FORMATS)
 """What an answer may be, the first where the caller does not mind; JSON is all but the pixels."""
+
+FORMS: Final = (*OFFERS, ZIP_MEDIA_TYPE)
+"""With the archive of a request that asks for ground truth, which has no other form."""
 
 CODING: Final = ("quantity", "codes_per_unit", "offset")
 """What travels in the header ``X-Phantom-Coding`` of numbers that are sent as codes."""
@@ -42,9 +46,9 @@ GEOMETRY: Final = (
 BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
 ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
     200: {
-        "description": "The picture, its numbers, or what is known of it",
+        "description": "The picture, its numbers, what is known of it, or it with its ground truth",
         "content": {
-            **dict.fromkeys(OFFERS, BINARY),
+            **dict.fromkeys(FORMS, BINARY),
             JSON: {"schema": {"type": "object"}},
         },
     },
@@ -64,7 +68,7 @@ def routes(service: Service) -> APIRouter:
         openapi_extra=body((JSON, reference(RadiographRequest))),
     )
     async def post(request: Request) -> Response:
-        wanted = negotiate(request.headers.get("accept"), OFFERS)
+        wanted = negotiate(request.headers.get("accept"), FORMS)
         tree = await read_json(request, service.settings.max_json_bytes)
         return await _answer(service, request, wanted, tree)
 
@@ -80,7 +84,7 @@ def routes(service: Service) -> APIRouter:
     )
     @router.head("/{name}", response_class=Response, include_in_schema=False)
     async def get(name: str, request: Request) -> Response:
-        wanted = negotiate(request.headers.get("accept"), OFFERS)
+        wanted = negotiate(request.headers.get("accept"), FORMS)
         library.entry(name)
         tree, known = radiograph_tree(name, request.query_params)
         return await _answer(service, request, wanted, tree, known)
@@ -97,12 +101,18 @@ async def _answer(
 ) -> Response:
     """Return the radiograph, or only its headers where the caller has it or asks for no more."""
 
-    def look(_: object) -> RadiographPlan:
+    def look(_: object) -> tuple[RadiographPlan, str]:
         planned = plan(tree, known, service.limits)
-        planned.check_format(format_named(wanted))
-        return planned
+        form = wanted
+        if planned.truth:
+            form = negotiate(request.headers.get("accept"), (ZIP_MEDIA_TYPE,))
+        elif wanted == ZIP_MEDIA_TYPE:
+            message = "found no kinds of ground truth; expected some, for an archive holds them"
+            raise InvalidInputError([Problem("/truth", "missing", message)])
+        planned.check_format(picture_format(planned) if planned.truth else format_named(form))
+        return planned, form
 
-    planned = await service.workshop.run(request, look)
+    planned, wanted = await service.workshop.run(request, look)
     headers = {"ETag": _entity_tag(planned, wanted), "Vary": "Accept"}
     if request.method != "POST":
         scope = "public" if service.settings.api_key is None else "private"
@@ -114,6 +124,9 @@ async def _answer(
 
     def make(cancelled: Any) -> tuple[bytes, dict[str, str]]:
         made = planned.render(cancelled=cancelled)
+        if planned.truth:
+            data, picture = bundle(planned, made, planned.tell(cancelled=cancelled))
+            return data, _told(made, picture, planned)
         encoded = encode(made, planned.quantity, planned.presentation, wanted, blind=planned.blind)
         return encoded.data, _told(made, encoded, planned)
 

@@ -41,6 +41,26 @@ def read_file(name: str) -> object:
     return read_tree(Path(name))
 
 
+def json_text(given: str, path: str) -> str:
+    """Return JSON given as it is or in a file; ``path`` is where the request has it.
+
+    Raises
+    ------
+    InvalidInputError
+        The file cannot be read.
+    """
+    from phantom.errors import InvalidInputError, Problem
+
+    if given.lstrip()[:1] == "{":
+        return given
+    try:
+        text = Path(given).read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        message = f"found no file {given[:200]!r} to read; expected one, or a JSON object"
+        raise InvalidInputError([Problem(path, "unreadable", message)]) from None
+    return text.strip()
+
+
 def _is_file(target: str) -> bool:
     """Tell whether a target is, or is written as, a document's file."""
     try:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from phantom.cli.console import Bar, answer, reporting, say
-from phantom.cli.options import AsJson, Settings, subject
+from phantom.cli.options import AsJson, Settings, json_text, subject
 
 if TYPE_CHECKING:
     from phantom.imaging import Radiograph
@@ -69,15 +69,71 @@ def make(
     filtration: Annotated[
         str | None, _word("Filters of the tube.", "MATERIAL=MM,…|none", "--filtration")
     ] = None,
+    acquisition: Annotated[
+        str | None,
+        _word("Dose, focal spot, scatter, detector: a file or JSON.", "FILE|JSON", "--acquisition"),
+    ] = None,
+    dose_ugy: Annotated[
+        str | None, _word("Air kerma at the detector in the open field.", "UGY", "--dose-ugy")
+    ] = None,
+    mas: Annotated[str | None, _word("Tube load, in place of the dose.", "MAS", "--mas")] = None,
+    falloff: Annotated[
+        str | None,
+        _word("Of the open field.", "none|inverse_square_cosine", "--falloff"),
+    ] = None,
+    focal_spot_mm: Annotated[
+        str | None, _word("Size of the focal spot.", "MM|[MM,MM]", "--focal-spot-mm")
+    ] = None,
+    scatter: Annotated[
+        bool | None, typer.Option("--scatter/--no-scatter", help="Scattered radiation.")
+    ] = None,
+    grid: Annotated[
+        str | None,
+        _word("Transmissions of an anti-scatter grid.", "PRIMARY,SCATTER|none", "--grid"),
+    ] = None,
+    samples: Annotated[
+        str | None, _word("Rays a pixel, across and down.", "N|[N,N]", "--samples")
+    ] = None,
+    quantum_noise: Annotated[
+        str | None, _word("How photons are drawn.", "off|compound|per_bin", "--quantum-noise")
+    ] = None,
+    seed: Annotated[str | None, _word("Of the noise.", "N", "--seed")] = None,
+    case: Annotated[str | None, _word("Of a series, for its noise.", "N", "--case")] = None,
     quantity: Annotated[
         str | None,
         _word("signal, transmission, line_integral or path_lengths.", "NAME", "--quantity"),
     ] = None,
-    mode: Annotated[str | None, _word("How grey is chosen.", "stretch", "--mode")] = None,
+    mode: Annotated[
+        str | None, _word("How grey is chosen.", "stretch|window|percentile|equalise", "--mode")
+    ] = None,
+    scope: Annotated[
+        str | None, _word("What the greys depend on.", "image|fixed", "--scope")
+    ] = None,
+    window_center: Annotated[
+        str | None, _word("Line integral in the middle of the greys.", "X", "--window-center")
+    ] = None,
+    window_width: Annotated[
+        str | None, _word("Line integrals that the greys span.", "X", "--window-width")
+    ] = None,
+    percentiles: Annotated[
+        str | None, _word("What becomes black and white.", "[LOW,HIGH]", "--percentiles")
+    ] = None,
     polarity: Annotated[
         str | None, _word("Which end bones have.", "bones_white|bones_dark", "--polarity")
     ] = None,
     bits: Annotated[str | None, _word("Of a grey level.", "8|16", "--bits")] = None,
+    gsdf: Annotated[
+        str | None, _word("The display's luminances and response.", "JSON", "--gsdf")
+    ] = None,
+    truth: Annotated[
+        str | None, _word("Ground truth of every named leaf.", "KIND,…|all", "--truth")
+    ] = None,
+    truth_output: Annotated[
+        str | None,
+        typer.Option(
+            "--truth-output", help="Where the ground truth goes to.", metavar="DIR|FILE.zip"
+        ),
+    ] = None,
     sidecar: Annotated[
         bool, typer.Option("--sidecar", help="Write the metadata beside it, as .json.")
     ] = False,
@@ -89,23 +145,35 @@ def make(
     as_json: AsJson = False,
 ) -> None:
     """X-ray a phantom of the library, or a document, and write the picture."""
-    options = {**locals(), "blind": None if blind is None else str(blind).lower()}
+    options = {**locals(), "blind": _truth(blind), "scatter": _truth(scatter)}
     with reporting(as_json=as_json):
         from phantom.encode import format_of_path
         from phantom.requests.radiograph import plan
         from phantom.requests.words import WORDS, request_tree
 
+        if acquisition is not None:
+            options["acquisition"] = json_text(acquisition, "/acquisition")
+        if truth_output is not None and truth is None:
+            options["truth"] = "all"
         given = {word: options[word] for word in WORDS if options[word] is not None}
         planned = plan(*request_tree(subject(target, settings), given.items()))
         pose = planned.chosen.get("view", "view")
         path = Path(output or f"{planned.phantom.document.name}-{pose}.png")
         planned.check_format(format_of_path(path))
+        beside_it = _truth_path(planned, truth_output, path)
         _tell_defaults(planned, given, None if output else path)
         made, beside = _render(planned, path, sidecar=sidecar, quiet=as_json)
         for warning in made.warnings:
             say(f"warning: {warning}")
+        if beside_it is not None:
+            _write_truth(planned, beside_it, path)
         if as_json:
             answer({"output": str(path), **beside})
+
+
+def _truth(flag: bool | None) -> str | None:
+    """Return a flag as a query string has it."""
+    return None if flag is None else str(flag).lower()
 
 
 def _tell_defaults(
@@ -138,6 +206,31 @@ def _render(
     )
     say(f"wrote {path}")
     return made, saved.beside
+
+
+def _truth_path(planned: RadiographPlan, output: str | None, picture: Path) -> Path | None:
+    """Return where the ground truth goes to, by default beside the picture; None without any."""
+    from phantom.encode.truth import check_truth_path
+    from phantom.errors import InvalidInputError, Problem
+
+    if not planned.truth:
+        if output is None:
+            return None
+        message = "found a place for ground truth without kinds of it; expected some"
+        raise InvalidInputError([Problem("/truth", "missing", message)])
+    path = Path(output) if output is not None else picture.with_name(f"{picture.stem}-truth.zip")
+    check_truth_path(path)
+    return path
+
+
+def _write_truth(planned: RadiographPlan, output: Path, picture: Path) -> None:
+    """Trace the ground truth and write it."""
+    from phantom.encode import save_truth
+
+    with Bar("tracing the leaves") as bar:
+        truth = planned.tell(progress=bar)
+    save_truth(truth, output, picture.name)
+    say(f"wrote {output}")
 
 
 def _short(value: object) -> str:

@@ -1,5 +1,6 @@
 """From a result to the bytes of a file: one registry of formats, whole files only."""
 
+from phantom.encode.archive import ZIP_MEDIA_TYPE, archive
 from phantom.encode.attributes import METADATA_KEY
 from phantom.encode.encoding import Encoded, encode, save
 from phantom.encode.files import write_atomically
@@ -7,18 +8,25 @@ from phantom.encode.formats import FORMATS, Format, format_named, format_of_path
 from phantom.encode.npy import npy
 from phantom.encode.picture import Picture
 from phantom.encode.png import png
+from phantom.encode.sidecar import sidecar
+from phantom.encode.truth import save_truth, truth_files
 
 __all__ = [
     "FORMATS",
     "METADATA_KEY",
+    "ZIP_MEDIA_TYPE",
     "Encoded",
     "Format",
     "Picture",
+    "archive",
     "encode",
     "format_named",
     "format_of_path",
     "npy",
     "png",
     "save",
+    "save_truth",
+    "sidecar",
+    "truth_files",
     "write_atomically",
 ]

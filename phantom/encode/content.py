@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 from numpy.typing import NDArray
-from pydantic import BaseModel
 
 from phantom.encode.coding import coding
 from phantom.encode.exr import layer_names
@@ -85,8 +84,7 @@ def grey(picture: Picture[Any], wanted: Wanted) -> Taken:
     levels = picture.presented(wanted.quantity, wanted.presentation)
     said: dict[str, Any] = {"holds": "grey levels", "quantity": wanted.quantity}
     said["bits"] = 8 * levels.dtype.itemsize
-    if isinstance(wanted.presentation, BaseModel):
-        said["presentation"] = wanted.presentation.model_dump(mode="json")
+    said["presentation"] = picture.shown(wanted.quantity, wanted.presentation)
     return {wanted.quantity: levels}, said
 
 

@@ -21,5 +21,8 @@ class Picture(Protocol[PresentationT_contra]):
     ) -> NDArray[np.uint8] | NDArray[np.uint16]:
         """Return (rows, columns) grey levels."""
 
+    def shown(self, name: str, presentation: PresentationT_contra | None) -> dict[str, Any]:
+        """Return what the presentation came to for this image, as plain JSON values."""
+
     def metadata(self) -> dict[str, Any]:
         """Return plain JSON values."""

@@ -7,11 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from phantom.imaging.beam import Beam, Response, attenuations_per_mm, depends_on_energy
+from phantom.imaging.beam import Beam, attenuations_per_mm, depends_on_energy
 from phantom.imaging.camera import box_corners, projection
+from phantom.imaging.detection import Acquisition, Exposed, NoiseKey, air_gap_mm, expose
+from phantom.imaging.refusals import check_exposure
 from phantom.imaging.result import Radiograph, sealed
+from phantom.imaging.spectrum import Spectrum
+from phantom.imaging.traces import Traces
 from phantom.imaging.truncation import truncated
-from phantom.imaging.view import View
+from phantom.imaging.view import FloatArray, View
 
 if TYPE_CHECKING:
     from phantom.scene import Phantom
@@ -22,7 +26,8 @@ def radiograph(
     view: View,
     beam: Beam | None = None,
     *,
-    response: Response = "energy_integrating",
+    acquisition: Acquisition | None = None,
+    noise: NoiseKey | None = None,
     workers: int | None = None,
     cancelled: Callable[[], bool] | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -33,43 +38,37 @@ def radiograph(
     ----------
     phantom, view, beam
         What, from where, and with what; the default beam has 60 keV.
-    response
-        What a photon adds to the signal: its energy, or one; see `Radiograph`.
+    acquisition
+        Dose, focal spot, scatter, grid, samples of a pixel, noise and detector. Without one the
+        image is ideal: the signal is the transmission.
+    noise
+        Whose noise; the same key gives the same image. By default every number of it is 0.
     workers
         Threads; the result does not depend on their number.
     cancelled
         Asked now and then; when it turns true the trace stops.
     progress
-        Told now and then how many rows are done, and of how many.
+        Told now and then how many rows of rays are done, and of how many.
 
     Raises
     ------
+    InvalidInputError
+        What has no image; see :func:`phantom.imaging.refusals.check_exposure`.
     CancelledError
         ``cancelled`` turned true.
     """
-    from phantom.tracing import raster
-
     beam = beam if beam is not None else Beam()
+    check_exposure(phantom, view, beam, acquisition)
     materials = phantom.document.materials
     spectrum = beam.imaging_spectrum(materials)
     energies = beam.energy_kev if beam.energy_kev is not None else spectrum.energies_kev
     attenuation = attenuations_per_mm(materials, energies)
-    detector = view.detector
-    right, down = detector.axes
-    pitch_x, pitch_y = detector.pitch_xy_mm
-    path_lengths = raster(
-        phantom,
-        source=None if view.source is None else np.asarray(view.source, dtype=np.float64),
-        direction=None if view.direction is None else np.asarray(view.direction, dtype=np.float64),
-        first_pixel=detector.pixel(0, 0),
-        column_step=pitch_x * right,
-        row_step=pitch_y * down,
-        columns=detector.columns,
-        rows=detector.rows,
-        workers=workers,
-        cancelled=cancelled,
-        progress=progress,
-    )
+    rays = Traces(phantom, view, acquisition, workers, cancelled, progress)
+    path_lengths = rays.centres()
+    key = noise if noise is not None else NoiseKey()
+    exposed = None
+    if acquisition is not None:
+        exposed = _exposed(rays, path_lengths, attenuation, spectrum, acquisition, key)
     return Radiograph(
         phantom=phantom,
         view=view,
@@ -77,10 +76,48 @@ def radiograph(
         path_lengths=sealed(path_lengths),
         spectrum=spectrum,
         attenuation_per_mm=sealed(attenuation),
-        response=response,
+        acquisition=acquisition,
+        noise=key,
+        exposed=exposed,
         truncated=truncated(phantom, view, projection(view)),
-        warnings=tuple(_warnings(phantom, view, beam)),
+        warnings=(
+            *_warnings(phantom, view, beam),
+            *(() if exposed is None else exposed.warnings),
+            *_idle_noise(acquisition, noise),
+        ),
     )
+
+
+def _exposed(
+    rays: Traces,
+    path_lengths: FloatArray,
+    attenuation_per_mm: FloatArray,
+    spectrum: Spectrum,
+    acquisition: Acquisition,
+    key: NoiseKey,
+) -> Exposed:
+    """Return what the detector makes of the rays."""
+    exposed = expose(
+        rays.samples(path_lengths),
+        attenuation_per_mm=attenuation_per_mm,
+        spectrum=spectrum,
+        view=rays.view,
+        acquisition=acquisition,
+        key=key,
+        field_path_lengths=rays.field(),
+        default_gap_mm=air_gap_mm(rays.view, rays.phantom.bounds),
+        workers=rays.workers,
+        cancelled=rays.cancelled,
+    )
+    sealed(exposed.signal)
+    return exposed
+
+
+def _idle_noise(acquisition: Acquisition | None, noise: NoiseKey | None) -> list[str]:
+    """Return the warning of a key from which nothing is drawn."""
+    if noise is None or (acquisition is not None and acquisition.draws):
+        return []
+    return ["the seed has no effect: no acquisition with noise is asked for"]
 
 
 def _warnings(phantom: Phantom, view: View, beam: Beam) -> list[str]:

@@ -21,7 +21,9 @@ UNITS: Final = {
     "transmission": "1",
     "signal": "1",
 }
-"""Unit of every number in the metadata and of every quantity; ``1`` is a pure number."""
+"""Unit of every number in the metadata and of every quantity; ``1`` is a pure number.
+
+The signal's is that of what the detector reads where there is an acquisition."""
 
 AXES: Final = "LPS: +x patient left, +y back, +z head; pixel centres at whole numbers"
 
@@ -53,10 +55,11 @@ def metadata(radiograph: Radiograph) -> dict[str, Any]:
             "material_names": list(radiograph.phantom.material_names),
             "anatomy": None if anatomy is None else anatomy.model_dump(mode="json"),
         },
-        "units": UNITS,
+        "units": {**UNITS, "signal": radiograph.signal_unit},
         "axes": AXES,
         "view": view.model_dump(mode="json"),
         "beam": radiograph.beam.model_dump(mode="json", exclude_none=True),
+        **_exposure(radiograph),
         "projection_matrix": radiograph.projection_matrix.tolist(),
         "intrinsics": radiograph.intrinsics.tolist(),
         "rotation": radiograph.rotation.tolist(),
@@ -69,3 +72,22 @@ def metadata(radiograph: Radiograph) -> dict[str, Any]:
         "stages": list(radiograph.stages),
         "warnings": list(radiograph.warnings),
     }
+
+
+def _exposure(radiograph: Radiograph) -> dict[str, Any]:
+    """Return what is said of dose, detector and noise; nothing of an ideal image."""
+    acquisition, exposed = radiograph.acquisition, radiograph.exposed
+    if acquisition is None or exposed is None:
+        return {}
+    told: dict[str, Any] = {
+        "acquisition": acquisition.model_dump(mode="json"),
+        "exposure": {
+            "detector_air_kerma_ugy": exposed.detector_air_kerma_ugy,
+            "exposure_index": exposed.exposure_index,
+            "bucky_factor": exposed.bucky_factor,
+            "open_field": exposed.open_field,
+        },
+    }
+    if acquisition.draws:
+        told["noise"] = radiograph.noise.model_dump(mode="json")
+    return told

@@ -7,22 +7,32 @@ A spectrum: ``transmission`` is the signal over that of the open field, Σ_k w_k
 over the bins k, each weighted by its photons and by what one of them adds to the signal; the
 weights w add up to 1. ``line_integral`` is −ln(transmission): what a person takes for Σ μ L who has
 only the image. It grows less than in proportion to the path length, which is beam hardening.
+
+With an acquisition, ``signal`` is what its detector reads. The other three stay ideal: they belong
+to the one ray from the view's source to the pixel's centre, without dose, focal spot, scatter,
+noise and blur. Only the signal averages the samples of a pixel and the points of a focal spot, and
+it averages what comes through (after the exponential), not path lengths.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final, Literal, get_args
+from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, get_args
 
 import numpy as np
 
 from phantom.errors import InvalidInputError, Problem
-from phantom.imaging.beam import Beam, Response
+from phantom.imaging.beam import Beam
 from phantom.imaging.beer import through_spectrum
 from phantom.imaging.camera import Projection, projection
+from phantom.imaging.detection import Acquisition, DetectorModel, Exposed, NoiseKey
+from phantom.imaging.detection.scintillator import response as photon_response
 from phantom.imaging.presentation import GreyArray, Presentation, present
+from phantom.imaging.presentation_stage import presentation_stage
 from phantom.imaging.spectrum import Spectrum
+from phantom.imaging.truth import KINDS, Truth
 from phantom.imaging.tube import spectrum_stages
 from phantom.imaging.view import FloatArray, View
 
@@ -36,6 +46,11 @@ QUANTITIES: Final[tuple[Quantity, ...]] = get_args(Quantity)
 
 IMAGES: Final = QUANTITIES[:3]
 """The quantities with one value a pixel."""
+
+
+class _Scale(TypedDict):
+    rises_with_attenuation: bool
+    open_field: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +68,12 @@ class Radiograph:
         The K photon energies that the image is summed over; one for a beam of one energy.
     attenuation_per_mm
         (M,) linear attenuation coefficients for one energy, (K, M) for a spectrum.
-    response
-        What a photon adds to the signal: ``energy_integrating``, its energy; ``photon_counting``,
-        one. It makes no difference to a beam of one energy.
+    acquisition
+        Dose, focal spot, scatter, grid and detector; None for the ideal image.
+    noise
+        Whose noise the signal has.
+    exposed
+        What the acquisition's detector read; None without one.
     truncated
         Names of the leaves that are not wholly in the field.
     warnings
@@ -68,17 +86,26 @@ class Radiograph:
     path_lengths: FloatArray
     spectrum: Spectrum
     attenuation_per_mm: FloatArray
-    response: Response
+    acquisition: Acquisition | None
+    noise: NoiseKey
+    exposed: Exposed | None
     truncated: tuple[str, ...]
     warnings: tuple[str, ...]
 
     @property
     def weights(self) -> FloatArray:
-        """(K,) share of each photon energy in the signal of the open field; they add up to 1."""
-        photons = self.spectrum.shares
-        per_photon = self.spectrum.energies_kev if self.response == "energy_integrating" else 1.0
-        counted = photons * per_photon
+        """(K,) share of each photon energy in the signal of the open field; they add up to 1.
+
+        Each photon counts with what the detector makes of it; with its energy where there is no
+        acquisition.
+        """
+        per_photon = photon_response(self._model, self.spectrum.energies_kev).weights[:, 1]
+        counted = self.spectrum.shares * per_photon
         return counted / float(counted.sum())
+
+    @property
+    def _model(self) -> DetectorModel:
+        return DetectorModel() if self.acquisition is None else self.acquisition.detector
 
     @cached_property
     def line_integral(self) -> FloatArray:
@@ -106,8 +133,21 @@ class Radiograph:
 
     @property
     def signal(self) -> FloatArray:
-        """(rows, columns) what the detector reads: 1 in the open field, the transmission."""
-        return self.transmission
+        """(rows, columns) what the detector reads, in :attr:`signal_unit`.
+
+        Without an acquisition 1 in the open field: the transmission.
+        """
+        return self.transmission if self.exposed is None else self.exposed.signal
+
+    @property
+    def signal_unit(self) -> str:
+        """``1``, a share of the open field, or ``photons``, ``keV``, ``signal`` or ``codes``."""
+        return "1" if self.exposed is None else self.exposed.unit
+
+    @property
+    def open_field(self) -> float:
+        """What the signal is on average at the detector's centre with nothing in the way."""
+        return 1.0 if self.exposed is None else self.exposed.open_field
 
     def quantity(self, name: str) -> FloatArray:
         """Return a quantity by its name; see :data:`QUANTITIES`."""
@@ -121,11 +161,42 @@ class Radiograph:
         self, name: str = "signal", presentation: Presentation | None = None
     ) -> GreyArray:
         """Return the grey levels of a quantity that has one value a pixel."""
+        return present(self._image(name), presentation, **self._scale(name))
+
+    def shown(
+        self, name: str = "signal", presentation: Presentation | None = None
+    ) -> dict[str, Any]:
+        """Return the stage that makes the grey levels, with its values, as plain JSON values."""
+        return presentation_stage(self._image(name), presentation, **self._scale(name))
+
+    def _image(self, name: str) -> FloatArray:
         image = self.quantity(name)
         if name not in IMAGES:
             message = f"{name!r} is no image; a picture shows one of {', '.join(IMAGES)}"
             raise InvalidInputError([Problem("/quantity", "not_an_image", message)])
-        return present(image, presentation, rises_with_attenuation=name == "line_integral")
+        return image
+
+    def _scale(self, name: str) -> _Scale:
+        """Return what a presentation must know of a quantity."""
+        return {
+            "rises_with_attenuation": name == "line_integral",
+            "open_field": self.open_field if name == "signal" else 1.0,
+        }
+
+    def truth(self, kinds: Iterable[str] = KINDS, **run: Any) -> Truth:
+        """Return what the picture shows, leaf by leaf; see :func:`phantom.imaging.ground_truth`.
+
+        Parameters
+        ----------
+        kinds
+            Some of ``masks``, ``thickness``, ``boxes``, ``entry_depth``, ``centroids`` and
+            ``landmarks``.
+        run
+            ``workers``, ``cancelled`` and ``progress``, as in :func:`phantom.imaging.radiograph`.
+        """
+        from phantom.imaging.truth_trace import ground_truth
+
+        return ground_truth(self.phantom, self.view, kinds, **run)
 
     @cached_property
     def projection(self) -> Projection:
@@ -176,7 +247,11 @@ class Radiograph:
                 **self._coefficients(),
                 "coherent_scattering": "included",
             },
-            {"stage": "signal", "open_field": 1.0, "response": self.response},
+            *(
+                ({"stage": "signal", "open_field": 1.0, "response": self._model.response},)
+                if self.exposed is None
+                else self.exposed.stages
+            ),
         )
 
     def _coefficients(self) -> dict[str, Any]:

@@ -10,6 +10,15 @@ BYTES_PER_NUMBER = 8
 IMAGES_PER_RADIOGRAPH = 4
 """Line integral, transmission, signal and the picture are held beside the path lengths."""
 
+IMAGES_PER_SAMPLE = 3
+"""What each sample of a pixel adds to the detector's three sums, beside its path lengths."""
+
+IMAGES_PER_EXPOSURE = 24
+"""The sums, noise, and the parts of a blur, while the detector's image is made."""
+
+MAPS_PER_LEAF = 2
+"""Thickness and entry depth of each leaf, where it fills the picture."""
+
 
 @dataclass(frozen=True, slots=True)
 class Limits:
@@ -19,6 +28,8 @@ class Limits:
     ----------
     pixels
         Of one radiograph.
+    exposure_rays
+        Of one radiograph: pixels, times the samples of each, times the points of the focal spot.
     rays
         Of one path-length call.
     result_bytes
@@ -26,6 +37,7 @@ class Limits:
     """
 
     pixels: int = 16384 * 16384
+    exposure_rays: int = 2**34
     rays: int = 10_000_000
     result_bytes: int = 8 * 2**30
 
@@ -35,6 +47,31 @@ class Limits:
         if pixels > self.pixels:
             _refuse("/detector", f"found {columns} × {rows} pixels", f"{self.pixels} at most")
         self._check_bytes("/detector", pixels * (materials + IMAGES_PER_RADIOGRAPH))
+
+    def check_exposure(
+        self, columns: int, rows: int, materials: int, samples: int, points: int, bins: int
+    ) -> None:
+        """Refuse a detector's image that takes too many rays, or too much memory.
+
+        Parameters
+        ----------
+        samples, points
+            Rays a pixel, and points of the focal spot, of which one at a time is in memory.
+        bins
+            Images of photons that are held at once: one an energy where each is drawn by itself.
+        """
+        pixels = columns * rows
+        rays = pixels * samples * points
+        if rays > self.exposure_rays:
+            found = f"found {columns} × {rows} pixels × {samples} samples × {points} points"
+            _refuse("/acquisition", f"{found} of the focal spot", f"{self.exposure_rays} at most")
+        sampled = 0 if samples == points == 1 else samples * (materials + IMAGES_PER_SAMPLE)
+        images = materials + IMAGES_PER_RADIOGRAPH + IMAGES_PER_EXPOSURE + bins
+        self._check_bytes("/acquisition", pixels * (images + sampled))
+
+    def check_truth(self, columns: int, rows: int, leaves: int) -> None:
+        """Refuse ground truth of too many pixels times leaves, thickness and depth of each."""
+        self._check_bytes("/truth", columns * rows * leaves * MAPS_PER_LEAF)
 
     def check_rays(self, rays: int, materials: int) -> None:
         """Refuse too many rays, or too many of them times materials."""

@@ -18,15 +18,24 @@ from phantom.document.base import Boolean
 from phantom.encode import Format
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import (
+    Acquisition,
     Beam,
     DetectorGrid,
+    NoiseKey,
     Presentation,
     Radiograph,
+    Truth,
     View,
     document_sha256,
+    ground_truth,
     radiograph,
 )
 from phantom.imaging.beam import DEFAULT_ANODE
+from phantom.imaging.presentation import OF_MODE
+from phantom.imaging.refusals import check_exposure
+from phantom.imaging.truth import Kind
+from phantom.imaging.truth_trace import check_kinds, named_leaves
+from phantom.requests.exposures import check_cost, words_of
 from phantom.requests.limits import Limits
 from phantom.requests.subject import LibraryPhantom, Subject, read_request
 from phantom.requests.viewpoint import PlacedView, PresetView, Viewpoint, view_of
@@ -47,10 +56,21 @@ class RadiographRequest(Model):
         default_factory=DetectorGrid
     )
     beam: Annotated[Beam, told("Beam", "none", "The photons.")] = Field(default_factory=Beam)
+    acquisition: Annotated[
+        Acquisition | None,
+        told("Acquisition", "none", "Dose, focal spot, scatter, detector; null for an ideal one."),
+    ] = None
+    noise: Annotated[NoiseKey, told("Noise", "none", "Whose noise an acquisition has.")] = Field(
+        default_factory=NoiseKey
+    )
     quantity: Annotated[Quantity, told("Quantity", "none", "What a pixel holds.")] = "signal"
     presentation: Annotated[Presentation, told("Presentation", "none", "How it is shown.")] = Field(
         default_factory=Presentation
     )
+    truth: Annotated[
+        tuple[Kind, ...],
+        told("Ground truth", "none", "What to tell of every named leaf; the answer is an archive."),
+    ] = ()
     blind: Annotated[
         Boolean, told("Blind", "none", "True leaves out of the file what it says of itself.")
     ] = False
@@ -63,11 +83,16 @@ class RadiographPlan:
     phantom: Phantom
     view: View
     beam: Beam
+    acquisition: Acquisition | None
+    noise: NoiseKey | None
+    """None where the request says nothing of it."""
     quantity: Quantity
     presentation: Presentation
     chosen: dict[str, object]
     """The value of every flat word (`phantom.requests.words`) that has one."""
     blind: bool = False
+    truth: tuple[Kind, ...] = ()
+    """Kinds of ground truth; none for the picture alone."""
 
     def fingerprint(self) -> str:
         """Return a hash of all that the result depends on, the same for equal requests."""
@@ -77,12 +102,21 @@ class RadiographPlan:
             "document": document_sha256(self.phantom.document),
             "view": self.view.model_dump(mode="json"),
             "beam": self.beam.model_dump(mode="json"),
+            **self._exposure(),
             "quantity": self.quantity,
             "presentation": self.presentation.model_dump(mode="json"),
             "blind": self.blind,
+            "truth": self.truth,
         }
         canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
         return hashlib.sha256(canonical.encode()).hexdigest()
+
+    def _exposure(self) -> dict[str, object]:
+        """Return what the detector's image depends on; nothing for an ideal one."""
+        if self.acquisition is None:
+            return {}
+        noise = (self.noise or NoiseKey()).model_dump(mode="json")
+        return {"acquisition": self.acquisition.model_dump(mode="json"), "noise": noise}
 
     def check_format(self, format: Format) -> None:
         """Refuse a file format that cannot hold the quantity, before anything is traced."""
@@ -90,6 +124,12 @@ class RadiographPlan:
             held = ", ".join(format.quantities)
             message = f"found {self.quantity!r}, but {format.name} holds one of {held}"
             raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
+        display = self.presentation.gsdf
+        if format.name == "dicom" and display is not None and display.response is not None:
+            message = "found a response, but a DICOM file holds P-values; expected none"
+            raise InvalidInputError(
+                [Problem("/presentation/gsdf/response", "not_in_format", message)]
+            )
 
     def render(
         self,
@@ -105,7 +145,30 @@ class RadiographPlan:
             ``cancelled()`` turned true.
         """
         return radiograph(
-            self.phantom, self.view, self.beam, cancelled=cancelled, progress=progress
+            self.phantom,
+            self.view,
+            self.beam,
+            acquisition=self.acquisition,
+            noise=self.noise,
+            cancelled=cancelled,
+            progress=progress,
+        )
+
+    def tell(
+        self,
+        *,
+        cancelled: Callable[[], bool] | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Truth:
+        """Trace its ground truth.
+
+        Raises
+        ------
+        CancelledError
+            ``cancelled()`` turned true.
+        """
+        return ground_truth(
+            self.phantom, self.view, self.truth, cancelled=cancelled, progress=progress
         )
 
 
@@ -131,22 +194,40 @@ def plan(
     # A detector is square where only its columns are given.
     if "rows" not in grid.model_fields_set:
         grid = grid.model_copy(update={"rows": grid.columns})
-    (limits or Limits()).check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
+    limits = limits or Limits()
+    limits.check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
+    kinds = check_kinds(request.truth)
+    if kinds:
+        limits.check_truth(grid.columns, grid.rows, len(named_leaves(phantom)))
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
-    presentation = _filled(request.presentation, polarity=technique.polarity)
+    acquisition, noise = request.acquisition, request.noise
+    check_cost(acquisition, detector, beam, phantom.document.materials, limits)
+    check_exposure(phantom, view, beam, acquisition)
+    presentation = _presentation(request.presentation, technique)
     chosen = {
         **_placing(phantom, request.view, view, recommended),
         "columns": detector.columns,
         "rows": detector.rows,
         "pitch_mm": detector.pitch_mm,
         **_beam_words(beam),
+        **words_of(acquisition, noise),
         "quantity": request.quantity,
-        **presentation.model_dump(),
+        **presentation.model_dump(exclude_none=True),
+        **({"truth": ",".join(kinds)} if kinds else {}),
     }
     return RadiographPlan(
-        phantom, view, beam, request.quantity, presentation, chosen, request.blind
+        phantom,
+        view,
+        beam,
+        acquisition,
+        noise if "noise" in request.model_fields_set else None,
+        request.quantity,
+        presentation,
+        chosen,
+        request.blind,
+        kinds,
     )
 
 
@@ -155,6 +236,30 @@ def _filled(model: ModelT, **defaults: object) -> ModelT:
     said = {name: getattr(model, name) for name in model.model_fields_set}
     content = {**model.model_dump(), **defaults, **said}
     return cast("ModelT", model.model_construct(_fields_set=model.model_fields_set, **content))
+
+
+def _presentation(asked: Presentation, technique: library.Technique) -> Presentation:
+    """Return the presentation with what the request left out as the technique has it.
+
+    The technique's window is used where the request wants a window but gives none, or says nothing
+    of the mapping at all.
+
+    Raises
+    ------
+    InvalidInputError
+        A window is wanted and there is none.
+    """
+    usual: dict[str, object] = {"polarity": technique.polarity}
+    silent = not {"mode", "scope", *OF_MODE} & asked.model_fields_set
+    wanting = asked.mode == "window" and asked.window_center is None
+    if technique.window is not None and (silent or wanting):
+        center, width = technique.window
+        usual |= {"mode": "window", "scope": "fixed"}
+        usual |= {"window_center": center, "window_width": width}
+    filled = _filled(asked, **usual)
+    if filled.mode == "window":
+        _ = filled.window  # refused here, before anything is traced
+    return filled
 
 
 def _beam(asked: Beam, technique: library.Technique) -> Beam:

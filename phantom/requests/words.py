@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 
-from phantom.document import decode_json
 from phantom.errors import InvalidInputError, Problem, pointer
+from phantom.requests.forms import FORMS, plain, scalar
 
 PARAMETERS = "parameters."
 
@@ -26,30 +25,33 @@ WORDS: Mapping[str, tuple[str, ...]] = {
     "kvp": ("beam", "kvp"),
     "anode": ("beam", "anode"),
     "filtration": ("beam", "filtration_mm"),
+    "acquisition": ("acquisition",),
+    "dose_ugy": ("acquisition", "detector_air_kerma_ugy"),
+    "mas": ("acquisition", "mas"),
+    "falloff": ("acquisition", "falloff"),
+    "focal_spot_mm": ("acquisition", "focal_spot", "size_mm"),
+    "scatter": ("acquisition", "scatter"),
+    "grid": ("acquisition", "grid"),
+    "samples": ("acquisition", "samples_per_pixel"),
+    "quantum_noise": ("acquisition", "quantum_noise"),
+    "seed": ("noise", "seed"),
+    "case": ("noise", "case"),
     "quantity": ("quantity",),
     "mode": ("presentation", "mode"),
+    "scope": ("presentation", "scope"),
+    "window_center": ("presentation", "window_center"),
+    "window_width": ("presentation", "window_width"),
+    "percentiles": ("presentation", "percentiles"),
     "polarity": ("presentation", "polarity"),
     "bits": ("presentation", "bits"),
+    "gsdf": ("presentation", "gsdf"),
+    "truth": ("truth",),
     "blind": ("blind",),
 }
 """Where each word's value stands in a request."""
 
-
-def scalar(text: str) -> object:
-    """Return the number, truth value or JSON array or object that the text is, else the text."""
-    text = text.strip()
-    if text in ("true", "false"):
-        return text == "true"
-    if text[:1] in ("{", "["):
-        return decode_json(text)
-    try:
-        number: float = int(text)
-    except ValueError:
-        try:
-            number = float(text)
-        except ValueError:
-            return text
-    return number if math.isfinite(number) else text
+WHOLE: Mapping[str, str] = {"view": "view", "acquisition": "acquisition"}
+"""Words that may be a JSON object, and the part of the request that it then is."""
 
 
 def parameters(pairs: Iterable[tuple[str, str]]) -> dict[str, object]:
@@ -68,62 +70,42 @@ def request_tree(
 ) -> tuple[dict[str, object], tuple[Problem, ...]]:
     """Return the request that the words ask for, as it would stand in JSON, and what is wrong.
 
-    A ``view`` that is a JSON object is taken as it is, so that an explicit source and detector can
-    be given too; ``filtration`` is a JSON object, MATERIAL=MM with commas between, or ``none``.
-    Words that are not known, or given twice, are problems.
+    A ``view`` or an ``acquisition`` that is a JSON object is taken as it is, so that all of it can
+    be given; other words add to it. Some words have a form of their own, see
+    :mod:`phantom.requests.forms`. Words that are not known, or that give a field twice, are
+    problems.
     """
     tree: dict[str, object] = {"phantom": dict(phantom)}
     problems: list[Problem] = []
-    seen: set[str] = set()
-    for word, text in words:
-        if word not in WORDS:
+    for word, text in sorted(words, key=lambda pair: pair[0] not in WHOLE):
+        path = WORDS.get(word)
+        if path is None:
             message = f"found an unknown word; expected one of {', '.join(WORDS)}"
             problems.append(Problem(pointer([word]), "unknown_field", message))
-        elif word in seen:
-            problems.append(
-                Problem(pointer(WORDS[word]), "given_twice", "found it twice; expected once")
-            )
-        elif word == "filtration":
-            filters, wrong = _filters(text)
-            _place(tree, word, filters)
-            problems += wrong
+            continue
+        value, wrong = FORMS.get(word, plain)(text, path)
+        problems += wrong
+        if word in WHOLE and isinstance(value, dict):
+            for name, part in value.items():
+                problems += _place(tree, (WHOLE[word], name), part)
         else:
-            _place(tree, word, scalar(text))
-        seen.add(word)
+            problems += _place(tree, path, value)
     return tree, tuple(problems)
 
 
-def _filters(text: str) -> tuple[object, tuple[Problem, ...]]:
-    """Return the filters in a text, material to mm, and what is wrong with it."""
-    if text.strip()[:1] == "{":
-        return scalar(text), ()
-    if text.strip() == "none":
-        return {}, ()
-    found: dict[str, object] = {}
-    for part in text.split(","):
-        name, equals, thickness = (piece.strip() for piece in part.partition("="))
-        if not (name and equals):
-            message = f"found {part[:60]!r}; expected MATERIAL=MM, as in aluminium=2.5"
-            return {}, (Problem("/beam/filtration_mm", "not_a_pair", message),)
-        if name in found:
-            path = pointer(("beam", "filtration_mm", name))
-            return {}, (Problem(path, "given_twice", "found it twice; expected once"),)
-        found[name] = scalar(thickness)
-    return found, ()
+def _place(tree: dict[str, object], path: tuple[str, ...], value: object) -> list[Problem]:
+    """Put a value where the request has it, unless there is one already."""
+    *sections, name = path
+    for section in sections:
+        inner = tree.setdefault(section, {})
+        if not isinstance(inner, dict):
+            return [_twice(path)]
+        tree = inner
+    if name in tree:
+        return [_twice(path)]
+    tree[name] = value
+    return []
 
 
-def _place(tree: dict[str, object], word: str, value: object) -> None:
-    """Put a word's value where the request has it."""
-    if word == "view" and isinstance(value, dict):
-        _section(tree, "view").update(value)
-    elif len(WORDS[word]) == 1:
-        tree[WORDS[word][0]] = value
-    else:
-        section, name = WORDS[word]
-        _section(tree, section)[name] = value
-
-
-def _section(tree: dict[str, object], name: str) -> dict[str, object]:
-    section = tree.setdefault(name, {})
-    assert isinstance(section, dict)
-    return section
+def _twice(path: tuple[str, ...]) -> Problem:
+    return Problem(pointer(path), "given_twice", "found it twice; expected once")

@@ -109,7 +109,7 @@ def test_every_default_is_told_in_one_line(run, tmp_path: Path, monkeypatch):
     words = {word.split("=")[0] for word in chosen.removeprefix("chosen: ").split(" ")}
     assert words == {
         "view", "source_detector_mm", "object_detector_mm", "rows", "pitch_mm",
-        "quantity", "mode", "polarity", "bits", "output",
+        "quantity", "mode", "scope", "polarity", "bits", "output",
     }  # fmt: skip
     assert "rows=16" in chosen
     assert (tmp_path / "sphere-ap.png").read_bytes().startswith(b"\x89PNG")
@@ -212,3 +212,40 @@ def test_only_loopback_is_served_without_a_key(run, monkeypatch, host, alone):
     assert ("key for every call" in result.stderr) is not alone
     guards = [m.cls.__name__ for m in served["application"].user_middleware]
     assert ("KeyRequired" in guards) is not alone
+
+
+def test_an_acquisition_in_a_file_and_in_words_are_one(run, tmp_path: Path):
+    asked = tmp_path / "knee.json"
+    asked.write_text(
+        '{"detector_air_kerma_ugy": 1.5, "scatter": {}, "focal_spot": {"size_mm": [0.6, 0.6]},'
+        ' "samples_per_pixel": [2, 2], "grid": {"primary_transmission": 0.7,'
+        ' "scatter_transmission": 0.1}}'
+    )
+    words = [
+        "--dose-ugy=1.5",
+        "--scatter",
+        "--focal-spot-mm=0.6",
+        "--samples=2",
+        "--grid=0.7,0.1",
+        "--seed=9",
+    ]
+    films = [tmp_path / name for name in ("file.npy", "words.npy", "other.npy")]
+    common = ["--columns", "24", "--kvp", "60"]
+    for film, options in zip(
+        films,
+        (["--acquisition", str(asked), "--seed", "9"], words, [*words, "--no-scatter"]),
+        strict=True,
+    ):
+        result = run("radiograph", "sphere", *common, *options, "-o", str(film))
+        assert result.exit_code == 0, result.stderr
+    assert "dose_ugy" not in result.stderr.split("chosen:")[1].split("wrote")[0]
+    assert "quantum_noise=compound" in result.stderr
+    assert films[0].read_bytes() == films[1].read_bytes()
+    assert films[0].read_bytes() != films[2].read_bytes()
+
+
+def test_an_acquisition_whose_file_is_not_there_is_told(run, tmp_path: Path):
+    result = run("radiograph", "sphere", "--acquisition", str(tmp_path / "none.json"), "--json")
+    assert result.exit_code == 2
+    (problem,) = json.loads(result.stderr)["problems"]
+    assert (problem["path"], problem["kind"]) == ("/acquisition", "unreadable")

@@ -43,6 +43,12 @@ DOCUMENTS = {
 }  # fmt: skip
 
 WORDS: dict[str, dict[str, str]] = {
+    "an unknown kind of ground truth": {"truth": "masks,labels"},
+    "a window without width": {"window_center": "1", "window_width": "0"},
+    "a display whose white is its black": {"gsdf": '{"l_min_cd_m2": 1, "l_max_cd_m2": 1}'},
+    "a response that falls": {
+        "gsdf": '{"l_min_cd_m2": 1, "l_max_cd_m2": 9, "response": [[0, 9], [255, 1]]}'
+    },
     "no such view": {"view": "sideways"},
     "no pixels": {"columns": "0", "rows": "-3"},
     "too many pixels": {"columns": "16384", "rows": "16384"},
@@ -69,6 +75,27 @@ WORDS: dict[str, dict[str, str]] = {
         "view": '{"source": [0, 0, 0], "detector":'
         ' {"center": [0, 0, 0], "right": [1, 0, 0], "down": [0, 0, -1]}}'
     },
+    "no pitch": {"pitch_mm": "0"},
+    "a negative dose": {"dose_ugy": "-1"},
+    "no tube load": {"kvp": "70", "mas": "0"},
+    "a dose and a tube load": {"kvp": "70", "mas": "2", "dose_ugy": "2.5"},
+    "a tube load without a tube": {"mas": "2"},
+    "a source beyond the detector": {"source_detector_mm": "900", "source_object_mm": "1000"},
+    "a detector behind the source": {
+        "view": '{"source": [0, 500, 0], "detector":'
+        ' {"center": [0, 900, 0], "right": [1, 0, 0], "down": [0, 0, -1]}}',
+        "pitch_mm": "1",
+    },
+    "no samples": {"samples": "0"},
+    "a focal spot of no size": {"focal_spot_mm": "-0.6"},
+    "a grid that is none": {"grid": "much"},
+    "a grid that gives more than it gets": {"grid": "1.5,-1"},
+    "an unknown absorber": {
+        "acquisition": '{"detector": {"absorber": {"material": "cheese", "thickness_mg_cm2": 1}}}'
+    },
+    "an acquisition in two ways": {"acquisition": '{"mas": 2}', "mas": "3"},
+    "a flat field with nothing to correct": {"acquisition": '{"flat_field": true}'},
+    "a seed below zero": {"seed": "-1", "case": "1.5"},
     "several parts at once": {"view": "x", "bits": "9", "columns": "0", "energy_kev": "-1"},
 }
 

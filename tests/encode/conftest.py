@@ -60,6 +60,9 @@ class Shot:
         levels = (values - values.min()) / (values.max() - values.min()) * (2 ** abs(bits) - 1)
         return np.rint(levels).astype(np.uint8 if abs(bits) == 8 else np.uint16)
 
+    def shown(self, name: str, presentation: int | None) -> dict[str, Any]:
+        return {"bits": presentation or 8}
+
     def metadata(self) -> dict[str, Any]:
         return {
             "software": {"name": "phantom-xray", "version": "1.2.3"},

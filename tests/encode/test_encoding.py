@@ -28,6 +28,9 @@ class Still:
     def presented(self, name: str, presentation: int | None) -> Any:
         return np.full((6, 5), presentation or 0, np.uint8)
 
+    def shown(self, name: str, presentation: int | None) -> dict[str, Any]:
+        return {"bits": presentation or 8}
+
     def metadata(self) -> dict[str, Any]:
         return {"phantom": {"name": "still"}, "quantity_of": 1.5}
 

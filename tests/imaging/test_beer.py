@@ -9,10 +9,21 @@ import pytest
 
 from phantom.document import FixedMaterial, ReferenceMaterial
 from phantom.errors import CancelledError
-from phantom.imaging import Beam, attenuations_per_mm, preset_view, radiograph
+from phantom.imaging import (
+    Acquisition,
+    Beam,
+    DetectorModel,
+    attenuations_per_mm,
+    preset_view,
+    radiograph,
+)
 from phantom.imaging.beer import through_spectrum
 from phantom.materials import attenuation_per_mm, reference
 from phantom.scene import Phantom, load
+
+
+def read_by(response: Any) -> Acquisition:
+    return Acquisition(quantum_noise="off", detector=DetectorModel(response=response))
 
 
 def ball_of(*materials: dict[str, Any], radius: float = 30) -> Phantom:
@@ -71,7 +82,7 @@ def test_it_can_be_cancelled() -> None:
 def test_a_radiograph_sums_the_signal_of_every_energy(response: Any) -> None:
     phantom = ball_of(WATER, BONE, radius=12)
     view = preset_view(phantom, "ap", columns=9, rows=9)
-    image = radiograph(phantom, view, Beam(kvp=80), response=response)
+    image = radiograph(phantom, view, Beam(kvp=80), acquisition=read_by(response))
     fine = Beam(kvp=80).spectrum()  # bins of 0.5 keV, where the image has 1 keV
     counted = fine.photons_per_mm2_mas_at_1m * (
         fine.energies_kev if response == "energy_integrating" else 1
@@ -116,7 +127,9 @@ def test_a_beam_hardens() -> None:
     )
     per_mm = [i.line_integral[0, 0] / i.path_lengths[0, 0, 0] for i in (thin, thick)]
     assert per_mm[1] < 0.93 * per_mm[0]
-    counted = radiograph(thick.phantom, thick.view, Beam(kvp=70), response="photon_counting")
+    counted = radiograph(
+        thick.phantom, thick.view, Beam(kvp=70), acquisition=read_by("photon_counting")
+    )
     assert counted.transmission[0, 0] < thick.transmission[0, 0]  # soft photons count for more
 
 

@@ -8,6 +8,7 @@ import dataclasses
 import pytest
 
 from phantom import library
+from phantom.encode import format_named
 from phantom.errors import InvalidInputError
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import plan
@@ -17,6 +18,13 @@ DOCUMENT = {
     "format": "phantom/1",
     "materials": {"a": {"attenuation_per_mm": 1}},
     "solid": {"type": "sphere", "center": [5, 6, 7], "radius": 4, "material": "a"},
+}
+NAMED = {
+    **DOCUMENT,
+    "solid": {
+        "type": "overlap",
+        "solids": [{**DOCUMENT["solid"], "name": name} for name in ("a", "b", "c")],
+    },
 }
 
 
@@ -83,6 +91,62 @@ def breast(monkeypatch):
     monkeypatch.setattr(library, "entry", lambda _: entry)
 
 
+@pytest.fixture
+def windowed(monkeypatch):
+    """The sphere, shown in a window of its own in every view."""
+    technique = library.Technique(window=(1.5, 3.0))
+    entry = dataclasses.replace(library.entry("sphere"), technique=technique)
+    monkeypatch.setattr(library, "entry", lambda _: entry)
+
+
+@pytest.mark.usefixtures("windowed")
+def test_a_phantom_with_a_window_is_shown_in_it_unless_asked_otherwise():
+    def shown(**wanted):
+        p = plan(SPHERE | {"presentation": wanted}).presentation
+        return p.mode, p.scope, p.window_center, p.window_width
+
+    fixed = ("window", "fixed", 1.5, 3.0)
+    assert shown() == shown(bits=16) == shown(scope="fixed") == shown(mode="window") == fixed
+    assert shown(mode="stretch") == ("stretch", "image", None, None)
+    assert shown(scope="image") == ("stretch", "image", None, None)
+    assert shown(percentiles=[5, 95])[:2] == ("percentile", "image")
+    assert shown(window_center=1, window_width=1) == ("window", "fixed", 1, 1)
+
+
+def test_a_window_that_nobody_gave_is_asked_for_before_anything_is_traced():
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(SPHERE | {"presentation": {"scope": "fixed"}})
+    assert paths(refusal) == ["/presentation/window_center"]
+
+
+def test_drive_levels_are_no_p_values_and_so_no_dicom():
+    display = {"l_min_cd_m2": 1, "l_max_cd_m2": 300, "response": [[0, 1], [255, 300]]}
+    planned = plan(SPHERE | {"presentation": {"gsdf": display}})
+    planned.check_format(format_named("png"))
+    with pytest.raises(InvalidInputError) as refusal:
+        planned.check_format(format_named("dicom"))
+    assert paths(refusal) == ["/presentation/gsdf/response"]
+
+
+def test_kinds_of_ground_truth_are_a_set():
+    one = plan(SPHERE | {"truth": ["boxes", "masks", "boxes"]})
+    assert one.truth == ("masks", "boxes")
+    assert one.fingerprint() == plan(SPHERE | {"truth": ["masks", "boxes"]}).fingerprint()
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(SPHERE | {"truth": ["masks", "labels"]})
+    assert paths(refusal) == ["/truth/1"]
+
+
+def test_ground_truth_too_large_to_hold_is_refused_before_it_is_traced():
+    pixels = 64 * 64
+    small = {"detector": {"columns": 64}, "phantom": {"document": NAMED}}
+    limits = Limits(result_bytes=pixels * 8 * 5)
+    plan(small, limits=limits)
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(small | {"truth": ["masks"]}, limits=limits)
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/truth", "too_large")]
+
+
 @pytest.mark.usefixtures("breast")
 def test_the_technique_is_that_of_the_phantom_and_the_view():
     beam = plan(SPHERE).beam
@@ -107,6 +171,11 @@ def test_any_difference_makes_another_request():
         SPHERE | {"beam": {"energy_kev": 61}},
         SPHERE | {"quantity": "transmission"},
         SPHERE | {"presentation": {"bits": 16}},
+        SPHERE | {"presentation": {"mode": "equalise"}},
+        SPHERE | {"truth": ["masks"]},
+        SPHERE | {"truth": ["boxes"]},
+        SPHERE | {"presentation": {"percentiles": [2, 98]}},
+        SPHERE | {"presentation": {"gsdf": {"l_min_cd_m2": 1, "l_max_cd_m2": 300}}},
         SPHERE | {"detector": {"columns": 1023}},
         {"phantom": {"name": "sphere", "parameters": {"radius_mm": 25.000001}}},
         {"phantom": {"document": DOCUMENT}},
@@ -198,3 +267,58 @@ def test_the_cost_is_counted_first(limits, detector):
         plan(SPHERE | {"detector": detector}, limits=limits)
     assert [(p.path, p.kind) for p in refusal.value.problems] == [("/detector", "too_large")]
     assert plan(SPHERE | {"detector": {"columns": 9}}, limits=limits)
+
+
+DOSE = {"detector_air_kerma_ugy": 1.0}
+
+
+def test_an_exposure_makes_another_request_and_so_does_its_seed():
+    requests = [
+        SPHERE,
+        SPHERE | {"acquisition": {}},
+        SPHERE | {"acquisition": DOSE},
+        SPHERE | {"acquisition": DOSE, "noise": {"seed": 1}},
+        SPHERE | {"acquisition": DOSE, "noise": {"case": 1}},
+        SPHERE | {"acquisition": DOSE | {"scatter": {}}},
+        SPHERE | {"acquisition": DOSE | {"detector": {"response": "photon_counting"}}},
+    ]
+    assert len({plan(request).fingerprint() for request in requests}) == len(requests)
+    same = [{"acquisition": {}}, {"acquisition": {"samples_per_pixel": [1, 1]}, "noise": {}}]
+    assert len({plan(SPHERE | request).fingerprint() for request in same}) == 1
+
+
+def test_a_seed_without_an_exposure_is_told_to_do_nothing():
+    made = plan(SPHERE | {"detector": {"columns": 4}, "noise": {"seed": 3}}).render()
+    assert any("seed has no effect" in warning for warning in made.warnings)
+    assert plan(SPHERE | {"detector": {"columns": 4}}).render().warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("limits", "acquisition"),
+    [
+        (
+            Limits(exposure_rays=100 * 4 * 6 - 1),
+            {"focal_spot": {"size_mm": [1, 1], "points": [2, 3]}},
+        ),
+        # One material: its path lengths and three sums, for each of 400 samples.
+        (Limits(result_bytes=8 * 400 * 4), {}),
+    ],
+)
+def test_an_exposure_that_costs_too_much_is_refused(limits, acquisition):
+    request = SPHERE | {
+        "detector": {"columns": 10},
+        "acquisition": {**DOSE, "samples_per_pixel": [2, 2], **acquisition},
+    }
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(request, limits=limits)
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/acquisition", "too_large")]
+    plan(request)
+
+
+def test_drawing_every_bin_holds_an_image_a_bin():
+    request = SPHERE | {"detector": {"columns": 10}, "beam": {"kvp": 120}}
+    limits = Limits(result_bytes=8 * 100 * 60)
+    plan(request | {"acquisition": {"quantum_noise": "compound"}}, limits=limits)
+    with pytest.raises(InvalidInputError) as refusal:
+        plan(request | {"acquisition": {"quantum_noise": "per_bin"}}, limits=limits)
+    assert paths(refusal) == ["/acquisition"]

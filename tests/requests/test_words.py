@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from phantom.errors import InvalidInputError
-from phantom.requests.words import WORDS, parameters, request_tree, scalar
+from phantom.requests.forms import scalar
+from phantom.requests.words import WORDS, parameters, request_tree
 
 
 @given(st.integers(-(10**18), 10**18) | st.floats(allow_nan=False, allow_infinity=False))
@@ -86,3 +87,48 @@ def test_unknown_and_repeated_words_are_all_told():
 
 def test_every_word_has_its_own_place():
     assert len(set(WORDS.values())) == len(WORDS)
+
+
+def test_an_acquisition_may_be_said_in_words():
+    tree, problems = request_tree(
+        {},
+        [("dose_ugy", "2.5"), ("scatter", "true"), ("grid", "0.7,0.1"), ("focal_spot_mm", "0.6"),
+         ("samples", "[2, 3]"), ("seed", "18446744073709551615"), ("case", "4")],
+    )  # fmt: skip
+    assert problems == ()
+    assert tree["acquisition"] == {
+        "detector_air_kerma_ugy": 2.5,
+        "scatter": {},
+        "grid": {"primary_transmission": 0.7, "scatter_transmission": 0.1},
+        "focal_spot": {"size_mm": [0.6, 0.6]},
+        "samples_per_pixel": [2, 3],
+    }
+    assert tree["noise"] == {"seed": 2**64 - 1, "case": 4}
+
+
+def test_words_add_to_an_acquisition_in_json_in_any_order():
+    whole = ("acquisition", '{"mas": 2, "focal_spot": {"points": [3, 3]}}')
+    words = [whole, ("scatter", "false"), ("grid", "none"), ("focal_spot_mm", "1")]
+    for order in (words, words[::-1]):
+        tree, problems = request_tree({}, order)
+        assert problems == ()
+        assert tree["acquisition"] == {
+            "mas": 2,
+            "scatter": None,
+            "grid": None,
+            "focal_spot": {"points": [3, 3], "size_mm": [1, 1]},
+        }
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        ([("grid", "0.7")], ("/acquisition/grid", "not_a_pair")),
+        ([("mas", "2"), ("acquisition", '{"mas": 3}')], ("/acquisition/mas", "given_twice")),
+        ([("acquisition", '{"mas": 3}'), ("mas", "2")], ("/acquisition/mas", "given_twice")),
+        ([("view", "pa"), ("view", '{"preset": "ap"}')], ("/view/preset", "given_twice")),
+    ],
+)
+def test_words_of_an_acquisition_that_are_none_are_told(words, problem):
+    _, problems = request_tree({}, words)
+    assert [(p.path, p.kind) for p in problems] == [problem]

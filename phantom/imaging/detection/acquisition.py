@@ -132,3 +132,8 @@ class Acquisition(Asked):
             message = "found a flat field without falloff; expected falloff inverse_square_cosine"
             refuse("no_effect", ((), message))
         return flat_field
+
+    @property
+    def draws(self) -> bool:
+        """Whether anything of the image is random."""
+        return self.quantum_noise != "off" or self.detector.electronic_noise > 0

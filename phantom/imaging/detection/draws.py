@@ -6,13 +6,14 @@ their luck, and where they expect the same they are the same (common random numb
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Annotated, ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
-from phantom.errors import InvalidInputError, Problem
+from phantom.document.base import Integer, told
+from phantom.imaging.asked import Asked
 from phantom.imaging.detection.philox import Words, fractions, philox4x32
 from phantom.imaging.view import FloatArray
 
@@ -36,34 +37,19 @@ _FAR: Final = (5.0, 1e4)
 Farther up the expansion is better there than scipy's distribution function."""
 
 
-@dataclass(frozen=True)
-class NoiseKey:
-    """What an image's noise depends on; two keys that differ have independent noise.
+_Long = Annotated[Integer, Field(ge=0, lt=2**64)]
+_Short = Annotated[Integer, Field(ge=0, lt=2**32)]
 
-    Attributes
-    ----------
-    seed, case
-        Whole numbers below 2⁶⁴: the user's choice, and which phantom of a series.
-    view, eye
-        Whole numbers below 2³²: which view of the case, and which eye of a pair.
-    """
 
-    seed: int
-    case: int = 0
-    view: int = 0
-    eye: int = 0
+class NoiseKey(Asked):
+    """What an image's noise depends on; two keys that differ have independent noise."""
 
-    def __post_init__(self) -> None:
-        """Refuse a number that has no place in the generator's counter."""
-        problems = []
-        for name, bits in (("seed", 64), ("case", 64), ("view", 32), ("eye", 32)):
-            value = getattr(self, name)
-            whole = isinstance(value, int) and not isinstance(value, bool)
-            if not whole or not 0 <= value < 2**bits:
-                message = f"found {value!r}; expected a whole number from 0 to 2^{bits} - 1"
-                problems.append(Problem(f"/noise/{name}", "out_of_range", message))
-        if problems:
-            raise InvalidInputError(problems)
+    place: ClassVar[str] = "/noise"
+
+    seed: Annotated[_Long, told("Seed", "none", "The user's choice.")] = 0
+    case: Annotated[_Long, told("Case", "none", "Which phantom of a series.")] = 0
+    view: Annotated[_Short, told("View", "none", "Which view of the case.")] = 0
+    eye: Annotated[_Short, told("Eye", "none", "Which eye of a pair.")] = 0
 
     @property
     def words(self) -> tuple[int, int]:
