@@ -21,11 +21,11 @@ from phantom.kernels.lanes import (
     AT_W,
     GA,
     GB,
-    HIGH,
     HELD,
     LOW,
     RA,
     RB,
+    RC,
     RE,
     RGA,
     RI,
@@ -191,7 +191,7 @@ def first_guess(S: Floats, n: int) -> None:
             t -= g / ((3.0 * c3 * t + 2.0 * c2) * t + sa)
             t = min(max(t, 1e-3), 1.0 - 1e-3) if t == t else 0.5
         S[RW + m] = a + t * span
-        S[RS + m] = math.inf
+        S[RC + m] = (c2 + 3.0 * c3 * t) / (span * span)
 
 
 @lane_loop
@@ -204,6 +204,32 @@ def aim(S: Floats, n: int) -> None:
             S[RW + m],
             S[RT + m],
         )
+
+
+@lane_loop
+def first_step(S: Floats, n: int, smooth: bool) -> None:
+    """Step from the guess to the root by the value and slope there and the bend of the cubic.
+
+    What the cubic was wrong by at its own root tells how wrong its bend is: about 12 / h^2 times as
+    much for the nearest end at a distance h. ``RE`` is what this leaves, with room to spare. That is
+    so where G is ``smooth``; a table's bend may jump from cell to cell, and needs another look.
+    """
+    unsure = 0.0 if smooth else 1.0
+    for m in range(n):
+        a, b, w, g, slope = S[RA + m], S[RB + m], S[RW + m], S[G + m], S[SLOPE + m]
+        falling = S[RGA + m] > 0.0
+        before = (g > 0.0) == falling
+        straight = -g / slope
+        following = w + straight * (1.0 - straight * S[RC + m] / slope)
+        h = min(w - a, b - w)
+        a, b = (w if before else a), (b if before else w)
+        within = (following >= a) & (following <= b) & ((slope < 0.0) == falling)
+        S[RA + m], S[RB + m] = a, b
+        S[RW + m] = following if within else 0.5 * (a + b)
+        step = abs(straight)
+        S[RE + m] = (unsure + 50.0 * step * step * step / (h * h)) if within else 1.0
+        S[RS + m], S[RP + m] = step, slope
+        S[RT + m] = S[TAU + m]
 
 
 @lane_loop
@@ -252,9 +278,10 @@ def polish_lanes(
             break
         aim(S, n)
         evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
-        newton(S, n)
         if step == 0:
-            continue
+            first_step(S, n, table < 0)
+        else:
+            newton(S, n)
         left = 0
         for m in range(n):
             if S[RE + m] < enough or S[RB + m] - S[RA + m] < 1e-15 or step == _HALVINGS - 1:

@@ -7,12 +7,9 @@ end; what is left of F corrects G to the first order, which leaves an error of i
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.compiled.layout import Tables
 from phantom.kernels.compiling import lane
 
 Floats = NDArray[np.float64]

@@ -37,8 +37,8 @@ AT_I, AT_J, AT_W, AT_T, G, SLOPE, TAU = (n * STRIDE for n in range(20, 27))
 RI, RJ, RA, RGA, RB, RW, RT, RS = (n * STRIDE for n in range(27, 35))
 # Between the steps of an evaluation, or of a decision.
 XV, XT, XW, YV, YT, YW, FV, FT, FW, H, HX, HY, HT = (n * STRIDE for n in range(35, 48))
-LOW, HIGH, RP, RE = (n * STRIDE for n in range(48, 52))
-ROWS = 52
+LOW, HIGH, RP, RE, RC = (n * STRIDE for n in range(48, 53))
+ROWS = 53
 
 
 @lane
