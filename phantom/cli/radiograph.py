@@ -131,7 +131,9 @@ def make(
     truth_output: Annotated[
         str | None,
         typer.Option(
-            "--truth-output", help="Where the ground truth goes to.", metavar="DIR|FILE.zip"
+            "--truth-output",
+            help="Where the ground truth goes to.",
+            metavar="DIR|FILE.zip|FILE.exr",
         ),
     ] = None,
     sidecar: Annotated[

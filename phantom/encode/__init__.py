@@ -9,7 +9,7 @@ from phantom.encode.npy import npy
 from phantom.encode.picture import Picture
 from phantom.encode.png import png
 from phantom.encode.sidecar import sidecar
-from phantom.encode.truth import save_truth, truth_files
+from phantom.encode.truth import save_truth, truth_files, truth_layers
 
 __all__ = [
     "FORMATS",
@@ -28,5 +28,6 @@ __all__ = [
     "save_truth",
     "sidecar",
     "truth_files",
+    "truth_layers",
     "write_atomically",
 ]

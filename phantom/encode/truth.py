@@ -12,12 +12,17 @@ from numpy.typing import NDArray
 
 from phantom.encode.archive import archive
 from phantom.encode.coco import Annotated, coco
+from phantom.encode.exr import exr, layer_names
 from phantom.encode.files import write_atomically
 from phantom.encode.npy import npy
 from phantom.encode.png import png
 from phantom.errors import InvalidInputError, Problem
 
 ZIP_SUFFIX: Final = ".zip"
+EXR_SUFFIX: Final = ".exr"
+
+MAPS: Final = {"masks": "mask", "thickness": "thickness", "entry_depth": "entry_depth"}
+"""The kinds that are images of a leaf, and what their layers are called."""
 
 
 class LeafMaps(Annotated, Protocol):
@@ -91,11 +96,42 @@ def truth_files(truth: Told, image_name: str = "image.png") -> dict[str, bytes]:
     return first | files
 
 
-def save_truth(truth: Told, path: Path | str, image_name: str = "image.png") -> tuple[str, ...]:
-    """Write a ground truth to a folder, or to an archive if the path ends in ``.zip``.
+def truth_layers(truth: Told) -> bytes:
+    """Return an OpenEXR of the maps, float32: ``mask.NAME``, ``thickness.NAME``, …, leaf by leaf.
 
-    Every file is whole or not there; a folder is made where there is none. Returns the files'
-    names, as in :func:`truth_files`.
+    Masks are 0 and 1. The whole of ``truth.json`` is in ``phantom:metadata``. Leaves that are not
+    seen have no layer.
+
+    Raises
+    ------
+    InvalidInputError
+        No leaf is seen, or no kind of map was asked for: the file would have no layer (``/truth``).
+    """
+    seen = [leaf for leaf in truth.leaves if leaf.box is not None]
+    layers: dict[str, NDArray[Any]] = {}
+    for kind, prefix in MAPS.items():
+        if kind in truth.kinds:
+            names = layer_names(prefix, [leaf.name for leaf in seen])
+            layers |= {n: _map(leaf, kind) for n, leaf in zip(names, seen, strict=True)}
+    if not layers:
+        message = "found no map of any leaf in the picture; expected some, for a file has layers"
+        raise InvalidInputError([Problem("/truth", "empty", message)])
+    return exr(layers, truth.told())
+
+
+def _map(leaf: LeafMaps, kind: str) -> NDArray[np.float32]:
+    if kind == "masks":
+        return leaf.mask.astype(np.float32)
+    values = leaf.thickness_mm if kind == "thickness" else leaf.entry_depth_mm
+    assert values is not None
+    return values.astype(np.float32)
+
+
+def save_truth(truth: Told, path: Path | str, image_name: str = "image.png") -> tuple[str, ...]:
+    """Write a ground truth to a folder, to an archive (``.zip``) or as layers (``.exr``).
+
+    Every file is whole or not there; a folder is made where there is none. Returns the names of the
+    files in the folder or archive, as in :func:`truth_files`.
 
     Raises
     ------
@@ -104,6 +140,9 @@ def save_truth(truth: Told, path: Path | str, image_name: str = "image.png") -> 
     """
     path = Path(path)
     check_truth_path(path)
+    if path.suffix.lower() == EXR_SUFFIX:
+        write_atomically(path, truth_layers(truth))
+        return (path.name,)
     files = truth_files(truth, image_name)
     if path.suffix.lower() == ZIP_SUFFIX:
         write_atomically(path, archive(files))
@@ -120,18 +159,18 @@ def check_truth_path(path: Path | str) -> None:
     Raises
     ------
     InvalidInputError
-        Its folder is not there, it is a folder that ends in ``.zip``, or a file that does not.
+        Its folder is not there, it is a folder whose name is a file's, or the other way.
     """
     path = Path(path)
     if not path.parent.is_dir():
         message = f"found no folder {str(path.parent)!r} to write into"
         raise InvalidInputError([Problem("/truth", "missing_folder", message)])
-    if path.suffix.lower() == ZIP_SUFFIX:
+    if path.suffix.lower() in (ZIP_SUFFIX, EXR_SUFFIX):
         if path.is_dir():
-            message = f"found a folder at {str(path)!r}, expected an archive's name"
+            message = f"found a folder at {str(path)!r}, expected a file's name"
             raise InvalidInputError([Problem("/truth", "is_a_folder", message)])
     elif path.exists() and not path.is_dir():
-        message = f"found a file at {str(path)!r}, expected a folder, or a name ending in .zip"
+        message = f"found a file at {str(path)!r}, expected a folder, or a .zip or .exr"
         raise InvalidInputError([Problem("/truth", "is_a_file", message)])
 
 

@@ -81,7 +81,7 @@ def radiograph(
         exposed=exposed,
         truncated=truncated(phantom, view, projection(view)),
         warnings=(
-            *_warnings(phantom, view, beam),
+            *_warnings(phantom, view, beam, acquisition),
             *(() if exposed is None else exposed.warnings),
             *_idle_noise(acquisition, noise),
         ),
@@ -120,13 +120,17 @@ def _idle_noise(acquisition: Acquisition | None, noise: NoiseKey | None) -> list
     return ["the seed has no effect: no acquisition with noise is asked for"]
 
 
-def _warnings(phantom: Phantom, view: View, beam: Beam) -> list[str]:
+def _warnings(
+    phantom: Phantom, view: View, beam: Beam, acquisition: Acquisition | None
+) -> list[str]:
     found = list(phantom.warnings)
     if not depends_on_energy(phantom.document.materials):
         asked = {name: getattr(beam, name) for name in ("energy_kev", "kvp")}
+        # A detector's photons still depend on it.
+        idle = "has no effect" if acquisition is None else "has no effect on what comes through"
         words = {"energy_kev": "energy of {:g} keV", "kvp": "tube voltage of {:g} kV"}
         found += [
-            f"the {words[name].format(value)} has no effect: every material has a fixed attenuation"
+            f"the {words[name].format(value)} {idle}: every material has a fixed attenuation"
             for name, value in asked.items()
             if value is not None and name in beam.model_fields_set
         ]

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import dataclasses
 import io
 import json
 import zipfile
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import OpenEXR
 import pytest
 from PIL import Image
 
+from phantom.encode import METADATA_KEY, save_truth
 from phantom.encode.archive import archive
 from phantom.encode.coco import coco, run_lengths
 from phantom.encode.truth import truth_files
+from phantom.errors import InvalidInputError
 from phantom.imaging import Detector, Truth, View, ground_truth
 from phantom.scene import load
 
@@ -127,6 +132,31 @@ def test_only_what_was_asked_for_is_written(truth: Truth) -> None:
     assert list(few) == ["truth.json"]
     some = truth_files(ground_truth(load(tree), VIEW, ["thickness"]))
     assert list(some) == ["truth.json", "thickness/000.npy", "thickness/001.npy"]
+
+
+def test_an_openexr_has_a_layer_for_each_map_of_each_leaf_that_is_seen(
+    truth: Truth, tmp_path: Path
+) -> None:
+    path = tmp_path / "truth.exr"
+    assert save_truth(truth, path) == ("truth.exr",)
+    file = OpenEXR.File(str(path), separate_channels=True)
+    layers = {name: channel.pixels for name, channel in file.channels().items()}
+    kinds, names = ("mask", "thickness", "entry_depth"), ("bar", "group/ball")
+    assert set(layers) == {f"{kind}.{name}" for kind in kinds for name in names}
+    expected = np.zeros((30, 40), dtype=np.float32)
+    expected[10:13, 13:18] = 1
+    np.testing.assert_array_equal(layers["mask.bar"], expected)
+    np.testing.assert_allclose(layers["thickness.bar"], 6 * expected, atol=1e-6)
+    assert np.isnan(layers["entry_depth.bar"][0, 0])
+    assert json.loads(file.header()[METADATA_KEY])["leaves"][0]["name"] == "bar"
+
+
+def test_an_openexr_without_layers_is_refused(truth: Truth, tmp_path: Path) -> None:
+    only_boxes = dataclasses.replace(truth, kinds=("boxes",))
+    with pytest.raises(InvalidInputError) as refusal:
+        save_truth(only_boxes, tmp_path / "truth.exr")
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/truth", "empty")]
+    assert not list(tmp_path.iterdir())
 
 
 def test_an_archive_is_the_same_bytes_every_time_and_unpacks_to_the_files(truth: Truth) -> None:

@@ -181,6 +181,17 @@ def test_an_ideal_image_has_no_exposure_to_tell(ball: Phantom) -> None:
     assert image.signal is image.transmission
 
 
+def test_the_voltage_counts_for_the_detector_where_it_does_not_for_the_phantom(
+    ball: Phantom,
+) -> None:
+    view = preset_view(ball, "ap", columns=4, rows=4)
+    soft, hard = (radiograph(ball, view, Beam(kvp=kvp), acquisition=counted()) for kvp in (50, 90))
+    np.testing.assert_allclose(soft.transmission, hard.transmission, rtol=1e-12)
+    assert abs(soft.open_field / hard.open_field - 1) > 0.1
+    (warning,) = soft.warnings
+    assert "no effect on what comes through" in warning
+
+
 @pytest.mark.parametrize(
     ("beam", "asked", "path"),
     [
