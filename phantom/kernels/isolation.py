@@ -207,28 +207,19 @@ def aim(S: Floats, n: int) -> None:
 
 
 @lane_loop
-def first_step(S: Floats, n: int, smooth: bool) -> None:
-    """Step from the guess to the root by the value and slope there and the bend of the cubic.
-
-    What the cubic was wrong by at its own root tells how wrong its bend is: about 12 / h^2 times as
-    much for the nearest end at a distance h. ``RE`` is what this leaves, with room to spare. That is
-    so where G is ``smooth``; a table's bend may jump from cell to cell, and needs another look.
-    """
-    unsure = 0.0 if smooth else 1.0
+def first_step(S: Floats, n: int) -> None:
+    """Step from the guess to the root by the value and slope there and the bend of the cubic."""
     for m in range(n):
         a, b, w, g, slope = S[RA + m], S[RB + m], S[RW + m], S[G + m], S[SLOPE + m]
         falling = S[RGA + m] > 0.0
         before = (g > 0.0) == falling
         straight = -g / slope
         following = w + straight * (1.0 - straight * S[RC + m] / slope)
-        h = min(w - a, b - w)
         a, b = (w if before else a), (b if before else w)
         within = (following >= a) & (following <= b) & ((slope < 0.0) == falling)
         S[RA + m], S[RB + m] = a, b
-        S[RW + m] = following if within else 0.5 * (a + b)
-        step = abs(straight)
-        S[RE + m] = (unsure + 50.0 * step * step * step / (h * h)) if within else 1.0
-        S[RS + m], S[RP + m] = step, slope
+        following = following if within else 0.5 * (a + b)
+        S[RW + m], S[RS + m], S[RP + m] = following, abs(following - w), slope
         S[RT + m] = S[TAU + m]
 
 
@@ -251,7 +242,8 @@ def newton(S: Floats, n: int) -> None:
         S[RA + m], S[RB + m], S[RW + m] = a, b, following
         step = abs(following - w)
         bend = abs((S[SLOPE + m] - S[RP + m]) / (S[SLOPE + m] * S[RS + m]))
-        S[RE + m] = (0.5 * bend * step * step) if within else 1.0
+        leaves = (0.5 * bend * step * step) if within else 1.0
+        S[RE + m] = 0.0 if step == 0.0 else leaves
         S[RS + m], S[RP + m] = step, S[SLOPE + m]
         S[RT + m] = S[TAU + m]
 
@@ -279,9 +271,9 @@ def polish_lanes(
         aim(S, n)
         evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
         if step == 0:
-            first_step(S, n, table < 0)
-        else:
-            newton(S, n)
+            first_step(S, n)
+            continue
+        newton(S, n)
         left = 0
         for m in range(n):
             if S[RE + m] < enough or S[RB + m] - S[RA + m] < 1e-15 or step == _HALVINGS - 1:
