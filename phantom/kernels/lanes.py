@@ -192,6 +192,7 @@ def collect(
     width follows.
     """
     count = 0
+    left = float(j0)
     for row in range(i0, i1):
         i = float(row)
         fa, faj = knots[knot, 0] + i * knots[knot, 1], knots[knot, 2]
@@ -204,8 +205,9 @@ def collect(
         d1, d1j = slabs[1, 3] + i * slabs[1, 4], slabs[1, 5]
         p2, p2j, h2 = slabs[2, 0] + i * slabs[2, 1], slabs[2, 2], slabs[2, 6]
         d2, d2j = slabs[2, 3] + i * slabs[2, 4], slabs[2, 5]
-        for column in range(j0, j1):
-            j = float(column)
+        # Counted from 0: what may be negative would be wrapped around, one lane at a time.
+        for m in range(j1 - j0):
+            j = left + m
             a, b = 0.0, 1.0
             f, d = fa + j * faj, da + j * daj
             t = -f / d
@@ -227,9 +229,9 @@ def collect(
             over = 1.0 / away_from_zero(d2 + j * d2j)
             middle, half = -(p2 + j * p2j) * over, abs(h2 * over)
             a, b = max(a, middle - half), min(b, middle + half)
-            S[LOW + column], S[HIGH + column] = a, b
-        for column in range(j0, j1):
-            a, b = S[LOW + column], S[HIGH + column]
-            S[I + count], S[J + count], S[A + count], S[B + count] = i, float(column), a, b
+            S[LOW + m], S[HIGH + m] = a, b
+        for m in range(j1 - j0):
+            a, b = S[LOW + m], S[HIGH + m]
+            S[I + count], S[J + count], S[A + count], S[B + count] = i, left + m, a, b
             count += 1 if a < b else 0
     return count

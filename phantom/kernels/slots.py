@@ -173,7 +173,7 @@ def ellipsoids(
     oxj, oyj, ozj = rays[2, 0], rays[2, 1], rays[2, 2]
     dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
     scale = 1e-9 * (abs(a00) + abs(a11) + abs(a22))
-    left = 0
+    left, first = 0, float(j0)
     for i in range(i0, i1):
         ox = rays[0, 0] + i * rays[1, 0] - cx
         oy = rays[0, 1] + i * rays[1, 1] - cy
@@ -181,7 +181,10 @@ def ellipsoids(
         dx0 = rays[3, 0] + i * rays[4, 0]
         dy0 = rays[3, 1] + i * rays[4, 1]
         dz0 = rays[3, 2] + i * rays[4, 2]
-        for j in range(j0, j1):
+        entries = ends[2 * slot, i * columns + j0 : i * columns + j1]
+        exits = ends[2 * slot + 1, i * columns + j0 : i * columns + j1]
+        for m in range(j1 - j0):
+            j = first + m
             x, y, z = ox + j * oxj, oy + j * oyj, oz + j * ozj
             dx, dy, dz = dx0 + j * dxj, dy0 + j * dyj, dz0 + j * dzj
             adx = a00 * dx + a01 * dy + a02 * dz
@@ -206,8 +209,8 @@ def ellipsoids(
             middle = shift - b * over
             entry, exit_ = max(middle - half, 0.0), min(middle + half, 1.0)
             hit = plain & (square > 0.0) & (exit_ > entry)
-            ends[2 * slot, i * columns + j] = entry if hit else 0.0
-            ends[2 * slot + 1, i * columns + j] = exit_ if hit else (0.0 if plain else -1.0)
+            entries[m] = entry if hit else 0.0
+            exits[m] = exit_ if hit else (0.0 if plain else -1.0)
             left += 0 if plain else 1
     return left
 

@@ -27,8 +27,10 @@ SPAN = 64
 def mark(ends: Floats, slot: int, start: int, width: int, bit: int, masks: Ints) -> int:
     """Set a bit for every pixel of a row that meets the slot; return how many do."""
     met = 0
+    entries = ends[2 * slot, start : start + width]
+    exits = ends[2 * slot + 1, start : start + width]
     for j in range(width):
-        hit = ends[2 * slot + 1, start + j] > ends[2 * slot, start + j]
+        hit = exits[j] > entries[j]
         masks[j] |= bit if hit else 0
         met += 1 if hit else 0
     return met
@@ -37,15 +39,17 @@ def mark(ends: Floats, slot: int, start: int, width: int, bit: int, masks: Ints)
 @lane_loop
 def falls(ends: Floats, before: int, after: int, start: int, width: int, wrong: Ints) -> None:
     """Note the pixels at which one end does not lie before the other."""
+    here, there = ends[before, start : start + width], ends[after, start : start + width]
     for j in range(width):
-        wrong[j] |= 1 if ends[before, start + j] > ends[after, start + j] else 0
+        wrong[j] |= 1 if here[j] > there[j] else 0
 
 
 @lane_loop
 def add(ends: Floats, end: int, factor: float, start: int, width: int, sums: Floats) -> None:
     """Add a multiple of one end."""
+    where = ends[end, start : start + width]
     for j in range(width):
-        sums[j] += factor * ends[end, start + j]
+        sums[j] += factor * where[j]
 
 
 @lane_loop

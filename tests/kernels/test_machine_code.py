@@ -1,0 +1,72 @@
+"""The loops over lanes are packed: several lanes an instruction, and never a call in between.
+
+A compiler that no longer packs them would cost four times the speed and change no result, so no
+other test would notice.
+"""
+
+import platform
+
+import numba
+import pytest
+from llvmlite.binding import get_host_cpu_features
+
+from phantom.kernels import isolation, lanes, slots, spans
+
+pytestmark = pytest.mark.skipif(
+    platform.machine() not in ("x86_64", "AMD64"), reason="reads the names of x86's registers"
+)
+
+FLOATS, INT, FLOAT = numba.float64[::1], numba.int64, numba.float64
+MATRIX = numba.types.Array(numba.float64, 2, "C", readonly=False)
+TENSOR = numba.types.Array(numba.float64, 3, "C", readonly=False)
+
+LOOPS = {
+    "evaluate": (
+        lanes.evaluate_circle,
+        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
+        {"vfmadd": 120, "vdivpd": 3},
+    ),
+    "evaluate tables": (
+        lanes.evaluate_jets,
+        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
+        {"vfmadd": 120, "vdivpd": 2},
+    ),
+    "collect": (
+        lanes.collect,
+        (FLOATS, MATRIX, INT, MATRIX, INT, INT, INT, INT),
+        {"vdivpd": 5},
+    ),
+    "judge": (
+        isolation.judge,
+        (FLOATS, INT, MATRIX, TENSOR, INT),
+        {"vsqrtpd": 2, "vdivpd": 3},
+    ),
+    "first guess": (isolation.first_guess, (FLOATS, INT), {"vsqrtpd": 1, "vdivpd": 3}),
+    "newton": (isolation.newton, (FLOATS, INT), {"vdivpd": 2}),
+    "ellipsoids": (
+        slots.ellipsoids,
+        (FLOATS, MATRIX, FLOAT, FLOAT, FLOAT, MATRIX, INT, INT, INT, INT, INT, INT),
+        {"vsqrtpd": 1, "vdivpd": 1},
+    ),
+    "lengths": (spans.put, (FLOATS, MATRIX, INT, INT, INT, FLOATS), {"vsqrtpd": 1}),
+}
+
+
+def machine_code(kernel, signature):
+    # Compiled anew: numba keeps no listing of what it loads from its cache.
+    options = {k: v for k, v in kernel.targetoptions.items() if k in ("fastmath", "error_model")}
+    fresh = numba.njit(nogil=True, **options)(kernel.py_func)
+    fresh.compile(signature)
+    return fresh.inspect_asm(fresh.signatures[0])
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_a_loop_over_lanes_uses_wide_registers(name):
+    if not get_host_cpu_features().get("avx2"):
+        pytest.skip("this processor has no AVX2")
+    kernel, signature, least = LOOPS[name]
+    lines = machine_code(kernel, signature).splitlines()
+    wide = [line for line in lines if "%ymm" in line or "%zmm" in line]
+    for instruction, count in least.items():
+        found = sum(instruction in line for line in wide)
+        assert found >= count, f"{found} packed {instruction}, expected {count} or more"
