@@ -70,6 +70,9 @@ ERROR_MM = 1e-11
 
 _HALVINGS = 200
 
+_EDGE = 1e-9
+"""Cells are taken this much wider, in cells: a point on an edge counts for both sides."""
+
 
 @lane
 def way_up(g: float, slope: float, low: float) -> float:
@@ -139,8 +142,79 @@ def judge(S: Floats, n: int, slabs: Floats, hulls: Floats, k: int) -> None:
 
 
 @kernel
+def bound_cells(
+    hessians: Floats, k: int, slabs: Floats, i0: int, i1: int, j0: int, j1: int, cells: Floats
+) -> None:
+    """Bound G'' along every ray of a rectangle of pixels, cell by cell, into (CELLS, CELLS, 2).
+
+    The direction is linear in row and column, so each of its components lies between those of the
+    corners, and each product of two between the products of their ends.
+    """
+    least, most = np.empty(3), np.empty(3)
+    for axis in range(3):
+        d = slabs[axis, 3]
+        i, j = slabs[axis, 4], slabs[axis, 5]
+        least[axis] = d + min(i * i0, i * i1) + min(j * j0, j * j1)
+        most[axis] = d + max(i * i0, i * i1) + max(j * j0, j * j1)
+    for row in range(CELLS):
+        for column in range(CELLS):
+            cells[row, column, 0] = cells[row, column, 1] = 0.0
+    for pair in range(6):
+        a = pair if pair < 3 else (0 if pair < 5 else 1)
+        b = pair if pair < 3 else (1 if pair == 3 else 2)
+        p, q = least[a] * least[b], least[a] * most[b]
+        r, s = most[a] * least[b], most[a] * most[b]
+        low, high = min(min(p, q), min(r, s)), max(max(p, q), max(r, s))
+        if a == b:
+            low = max(low, 0.0)
+        else:
+            low, high = 2.0 * low, 2.0 * high
+        for row in range(CELLS):
+            for column in range(CELLS):
+                x, y = hessians[k, row, column, pair, 0], hessians[k, row, column, pair, 1]
+                cells[row, column, 0] += min(min(low * x, high * x), min(low * y, high * y))
+                cells[row, column, 1] += max(max(low * x, high * x), max(low * y, high * y))
+
+
+@kernel
+def over_cells(
+    cells: Floats, p1: float, d1: float, p2: float, d2: float, start: float, end: float
+) -> tuple[float, float]:
+    """Return the bounds of G'' over the cells that [start, end] of a ray, given in cells, meets."""
+    low, high = math.inf, -math.inf
+    a1, b1 = p1 + start * d1, p1 + end * d1
+    first = min(max(int(min(a1, b1) - _EDGE), 0), CELLS - 1)
+    last = min(max(int(max(a1, b1) + _EDGE), 0), CELLS - 1)
+    for i in range(first, last + 1):
+        a, b = start, end
+        if first < last:
+            u, v = (i - _EDGE - p1) / d1, (i + 1 + _EDGE - p1) / d1
+            if u > v:
+                u, v = v, u
+            if i > 0 and i < CELLS - 1:
+                a, b = max(a, u), min(b, v)
+            elif (i == 0) == (d1 > 0):
+                b = min(b, v)
+            else:
+                a = max(a, u)
+        a2, b2 = p2 + a * d2, p2 + b * d2
+        left = min(max(int(min(a2, b2) - _EDGE), 0), CELLS - 1)
+        right = min(max(int(max(a2, b2) + _EDGE), 0), CELLS - 1)
+        for j in range(left, right + 1):
+            low, high = min(low, cells[i, j, 0]), max(high, cells[i, j, 1])
+    return low, high
+
+
+@kernel
 def look_closer(
-    S: Floats, m: int, slabs: Floats, scene: Scene, k: int, beam: Floats, shortest: float
+    S: Floats,
+    m: int,
+    slabs: Floats,
+    scene: Scene,
+    k: int,
+    beam: Floats,
+    shortest: float,
+    cells: Floats,
 ) -> float:
     """Return the verdict on one interval by the bounds of the cells that its ray runs through."""
     g0, s0, g1, s1 = S[GA + m], S[SA + m], S[GB + m], S[SB + m]
@@ -151,19 +225,24 @@ def look_closer(
     i, j = S[I + m], S[J + m]
     e0 = slabs[0, 3] + i * slabs[0, 4] + j * slabs[0, 5]
     e1 = slabs[1, 3] + i * slabs[1, 4] + j * slabs[1, 5]
-    e2 = slabs[2, 3] + i * slabs[2, 4] + j * slabs[2, 5]
-    # Bounds hold for mm along the ray: slopes and lengths are brought to them.
-    length = math.sqrt(e0 * e0 + e1 * e1 + e2 * e2)
-    e0, e1, e2 = e0 / length, e1 / length, e2 / length
-    a, b, s0, s1 = a * length, b * length, s0 / length, s1 / length
     for axis in range(2):
-        cells = 0.5 * CELLS / slabs[axis, 6]
+        a_cell = 0.5 * CELLS / slabs[axis, 6]
         p = slabs[axis, 0] + i * slabs[axis, 1] + j * slabs[axis, 2]
-        beam[2 * axis] = (p + slabs[axis, 6]) * cells
-        beam[2 * axis + 1] = (e0 if axis == 0 else e1) * cells
-    beam[4], beam[5], beam[6] = e0 * e0, e1 * e1, e2 * e2
-    beam[7], beam[8], beam[9] = 2.0 * e0 * e1, 2.0 * e0 * e2, 2.0 * e1 * e2
-    low, high, up, down = curvature(scene.hessians, scene.kinks, k, beam, a, b)
+        beam[2 * axis] = (p + slabs[axis, 6]) * a_cell
+        beam[2 * axis + 1] = (e0 if axis == 0 else e1) * a_cell
+    up = down = 0.0
+    if scene.cornered[k]:
+        # Jumps of the slope are bounded by mm along the ray: all is brought to them.
+        e2 = slabs[2, 3] + i * slabs[2, 4] + j * slabs[2, 5]
+        length = math.sqrt(e0 * e0 + e1 * e1 + e2 * e2)
+        e0, e1, e2 = e0 / length, e1 / length, e2 / length
+        a, b, s0, s1 = a * length, b * length, s0 / length, s1 / length
+        beam[1], beam[3] = beam[1] / length, beam[3] / length
+        beam[4], beam[5], beam[6] = e0 * e0, e1 * e1, e2 * e2
+        beam[7], beam[8], beam[9] = 2.0 * e0 * e1, 2.0 * e0 * e2, 2.0 * e1 * e2
+        low, high, up, down = curvature(scene.hessians, scene.kinks, k, beam, a, b)
+    else:
+        low, high = over_cells(cells, beam[0], beam[1], beam[2], beam[3], a, b)
     if opposite:
         return ROOT if crosses_once(g0, s0, s1, b - a, low, high, up, down) else SPLIT
     if g0 < 0.0:
@@ -336,6 +415,10 @@ def halve(S: Floats, n: int) -> None:
 @kernel
 def isolate(
     n: int,
+    i0: int,
+    i1: int,
+    j0: int,
+    j1: int,
     ox: float,
     oy: float,
     oz: float,
@@ -378,6 +461,9 @@ def isolate(
             where[filled], signs[filled] = S[B + m], -1.0
             filled += 1
     cornered = scene.cornered[k] != 0
+    cells = held.cells
+    if not cornered:
+        bound_cells(scene.hessians, k, slabs, i0, i1, j0, j1, cells)
     roots = 0
     while n > 0:
         if roots + n > HELD:
@@ -391,7 +477,7 @@ def isolate(
         for m in range(n):
             code = S[LOW + m]
             if cornered or code == DOUBT:
-                code = look_closer(S, m, slabs, scene, k, held.beam, shortest)
+                code = look_closer(S, m, slabs, scene, k, held.beam, shortest, cells)
             if code == ROOT:
                 S[RI + roots], S[RJ + roots], S[RT + roots] = S[I + m], S[J + m], S[TA + m]
                 S[RA + roots], S[RGA + roots], S[RS + roots] = S[A + m], S[GA + m], S[SA + m]

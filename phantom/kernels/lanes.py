@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from phantom.compiled.layout import Tables
 from phantom.kernels.compiling import lane, lane_loop
 from phantom.kernels.jets import along, at_point, nearer_tau, plane, value, value_and_slope
-from phantom.kernels.section import changing_star, star
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 TILE_ROWS, TILE_COLUMNS = 16, 128
 """Pixels of a tile; wide, since neighbours along a row meet solids in the same order."""
@@ -118,18 +118,102 @@ def evaluate_jets(
         S[YV + m], S[YT + m], S[YW + m] = yv, yt, value(along(py, dx, dy, dz), t)
 
 
+@lane
+def turned_chart(x: float, y: float) -> tuple[bool, float, float, float]:
+    """Return whether x is the major coordinate, its sign and size, and the minor one."""
+    level = abs(x) >= abs(y)
+    sign = (1.0 if x >= 0.0 else -1.0) if level else (1.0 if y >= 0.0 else -1.0)
+    return level, sign, (abs(x) if level else abs(y)), (sign * y if level else -sign * x)
+
+
+@lane_loop
+def find_cells(
+    S: Floats, n: int, buckets: Ints, first: int, count: int, edges: Floats, table: int, last: int
+) -> None:
+    """Write the cell of the contour's table that each phi lies in, into ``H``."""
+    scale = 0.125 * count
+    for m in range(n):
+        level, sign, major, minor = turned_chart(S[XV + m], S[YV + m])
+        chart = (0.0 if level else 1.0) + (0.0 if sign > 0.0 else 2.0)
+        T = 2.0 * chart + (minor / major if major > 0.0 else 0.0) + 1.0
+        cell = buckets[first + min(int(T * scale), count - 1)]
+        while cell < last and edges[cell + table + 1] <= T:
+            cell += 1
+        S[H + m] = cell
+
+
+@lane_loop
+def fixed_cells(S: Floats, n: int, edges: Floats, table: int, cells: Floats) -> None:
+    """Write h and its gradient from the cells of a contour that stays as it is."""
+    for m in range(n):
+        level, sign, major, minor = turned_chart(S[XV + m], S[YV + m])
+        chart = (0.0 if level else 1.0) + (0.0 if sign > 0.0 else 2.0)
+        t = minor / major if major > 0.0 else 0.0
+        c = np.uint64(S[H + m])
+        low, high = edges[c + np.uint64(table)], edges[c + np.uint64(table + 1)]
+        over = 2.0 / (high - low)
+        z = (2.0 * chart + t + 1.0 - 0.5 * (low + high)) * over
+        g = cells[c, 5]
+        slope = g
+        g = g * z + cells[c, 4]
+        slope = slope * z + g
+        g = g * z + cells[c, 3]
+        slope = slope * z + g
+        g = g * z + cells[c, 2]
+        slope = slope * z + g
+        g = g * z + cells[c, 1]
+        slope = (slope * z + g) * over
+        g = g * z + cells[c, 0]
+        a, b = major * (2.0 * g - t * slope), major * slope
+        S[H + m] = major * major * g - 1.0
+        S[HX + m] = sign * a if level else -sign * b
+        S[HY + m] = sign * b if level else sign * a
+        S[HT + m] = 0.0
+
+
+@lane_loop
+def changing_cells(
+    S: Floats, n: int, edges: Floats, table: int, tensors: Floats, skip: int
+) -> None:
+    """Write h, its gradient and its slope along tau from the cells of a contour that changes."""
+    for m in range(n):
+        level, sign, major, minor = turned_chart(S[XV + m], S[YV + m])
+        chart = (0.0 if level else 1.0) + (0.0 if sign > 0.0 else 2.0)
+        t, tau = (minor / major if major > 0.0 else 0.0), S[TAU + m]
+        c = int(S[H + m])
+        low, high = edges[c + table], edges[c + table + 1]
+        over = 2.0 / (high - low)
+        z = (2.0 * chart + t + 1.0 - 0.5 * (low + high)) * over
+        row = c - skip
+        g = slope = rate = 0.0
+        for i in range(5, -1, -1):
+            value, first = tensors[row, i, 6], 0.0
+            for j in range(5, -1, -1):
+                first = first * tau + value
+                value = value * tau + tensors[row, i, j]
+            slope = slope * z + g
+            g = g * z + value
+            rate = rate * z + first
+        slope *= over
+        a, b = major * (2.0 * g - t * slope), major * slope
+        S[H + m] = major * major * g - 1.0
+        S[HX + m] = sign * a if level else -sign * b
+        S[HY + m] = sign * b if level else sign * a
+        S[HT + m] = major * major * rate
+
+
 @lane_loop
 def look_up(S: Floats, n: int, table: int, tables: Tables) -> None:
     """Write h and its gradient from a contour's table."""
-    if tables.first_cell[table] < len(tables.cells):
-        for m in range(n):
-            S[H + m], S[HX + m], S[HY + m] = star(S[XV + m], S[YV + m], table, tables)
-            S[HT + m] = 0.0
+    first = tables.first_bucket[table]
+    count = tables.first_bucket[table + 1] - first
+    last = tables.first_cell[table + 1] - 1
+    find_cells(S, n, tables.buckets, first, count, tables.edges, table, last)
+    fixed = len(tables.cells)
+    if tables.first_cell[table] < fixed:
+        fixed_cells(S, n, tables.edges, table, tables.cells)
     else:
-        for m in range(n):
-            S[H + m], S[HX + m], S[HY + m], S[HT + m] = changing_star(
-                S[XV + m], S[YV + m], S[TAU + m], table, tables
-            )
+        changing_cells(S, n, tables.edges, table, tables.tensors, fixed)
 
 
 @lane_loop

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.compiled.layout import Scene
+from phantom.compiled.layout import CELLS, Scene
 from phantom.kernels.lanes import LANES, ROWS, STRIDE, TILE_COLUMNS
 
 Floats = NDArray[np.float64]
@@ -28,6 +28,7 @@ class Scratch(NamedTuple):
     knots: Floats  # (n, 6) section planes along the rays
     slabs: Floats  # (3, 7) sides of a segment's box along the rays, half its width
     beam: Floats  # (10,) one ray in a segment's cells; a plane along the rays
+    cells: Floats  # (CELLS, CELLS, 2) of one segment, along the rays of a tile
     pixels: Ints  # (records,) where rays enter or leave a leaf
     where: Floats  # (records,) part of the way from source to pixel
     signs: Floats  # (records,) 1 in, -1 out
@@ -64,6 +65,7 @@ def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
         knots=np.empty((segments + 1, 6)),
         slabs=np.empty((3, 7)),
         beam=np.empty(10),
+        cells=np.empty((CELLS, CELLS, 2)),
         pixels=np.empty(_RECORDS, dtype=ints),
         where=np.empty(_RECORDS),
         signs=np.empty(_RECORDS),

@@ -94,6 +94,10 @@ def cylinder_records(
                 continue
             filled = isolate(
                 n,
+                i0,
+                i1,
+                j0,
+                j1,
                 rays[0, 0] - middle[0],
                 rays[0, 1] - middle[1],
                 rays[0, 2] - middle[2],
