@@ -16,7 +16,7 @@ from phantom.tracing.pool import cut_bands, run_bands
 
 Floats = NDArray[np.float64]
 
-_BAND_PIXELS = 65536
+_BAND_PIXELS = 16384
 _ROOM = 256
 _SLOTS = 64
 
