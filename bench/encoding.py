@@ -61,6 +61,9 @@ class Ball:
     def presented(self, name, presentation):
         return self.grey
 
+    def shown(self, name, presentation):
+        return {"stage": "presentation", "mode": "stretch", "bits": 16}
+
     def metadata(self):
         return self.told
 
