@@ -207,49 +207,71 @@ def over_cells(
 
 @kernel
 def look_closer(
-    S: Floats,
-    m: int,
-    slabs: Floats,
-    scene: Scene,
-    k: int,
-    beam: Floats,
-    shortest: float,
-    cells: Floats,
+    g0: float,
+    s0: float,
+    g1: float,
+    s1: float,
+    span: float,
+    low: float,
+    high: float,
+    up: float,
+    down: float,
 ) -> float:
     """Return the verdict on one interval by the bounds of the cells that its ray runs through."""
-    g0, s0, g1, s1 = S[GA + m], S[SA + m], S[GB + m], S[SB + m]
-    a, b = S[A + m], S[B + m]
-    opposite = (g0 < 0.0) != (g1 < 0.0)
-    if b - a < shortest:
-        return ROOT if opposite else DONE
-    i, j = S[I + m], S[J + m]
-    e0 = slabs[0, 3] + i * slabs[0, 4] + j * slabs[0, 5]
-    e1 = slabs[1, 3] + i * slabs[1, 4] + j * slabs[1, 5]
-    for axis in range(2):
-        a_cell = 0.5 * CELLS / slabs[axis, 6]
-        p = slabs[axis, 0] + i * slabs[axis, 1] + j * slabs[axis, 2]
-        beam[2 * axis] = (p + slabs[axis, 6]) * a_cell
-        beam[2 * axis + 1] = (e0 if axis == 0 else e1) * a_cell
-    up = down = 0.0
-    if scene.cornered[k]:
+    if (g0 < 0.0) != (g1 < 0.0):
+        return ROOT if crosses_once(g0, s0, s1, span, low, high, up, down) else SPLIT
+    if g0 < 0.0:
+        clear = stays_positive(-g0, -s0, -g1, -s1, span, -high, -low, down, up)
+    else:
+        clear = stays_positive(g0, s0, g1, s1, span, low, high, up, down)
+    return DONE if clear else SPLIT
+
+
+@kernel
+def look_at_all(
+    S: Floats,
+    n: int,
+    slabs: Floats,
+    cornered: bool,
+    hessians: Floats,
+    kinks: Floats,
+    k: int,
+    beam: Floats,
+    cells: Floats,
+    shortest: float,
+) -> None:
+    """Settle the doubts among n verdicts in ``LOW``; those on a contour with corners are none yet.
+
+    One loop and few arrays: handing a scene to a function costs more than looking at an interval.
+    """
+    for m in range(n):
+        if not cornered and S[LOW + m] != DOUBT:
+            continue
+        g0, s0, g1, s1 = S[GA + m], S[SA + m], S[GB + m], S[SB + m]
+        a, b = S[A + m], S[B + m]
+        if b - a < shortest:
+            S[LOW + m] = ROOT if (g0 < 0.0) != (g1 < 0.0) else DONE
+            continue
+        i, j = S[I + m], S[J + m]
+        e0 = slabs[0, 3] + i * slabs[0, 4] + j * slabs[0, 5]
+        e1 = slabs[1, 3] + i * slabs[1, 4] + j * slabs[1, 5]
+        c0, c1 = 0.5 * CELLS / slabs[0, 6], 0.5 * CELLS / slabs[1, 6]
+        p0 = (slabs[0, 0] + i * slabs[0, 1] + j * slabs[0, 2] + slabs[0, 6]) * c0
+        p1 = (slabs[1, 0] + i * slabs[1, 1] + j * slabs[1, 2] + slabs[1, 6]) * c1
+        if not cornered:
+            low, high = over_cells(cells, p0, e0 * c0, p1, e1 * c1, a, b)
+            S[LOW + m] = look_closer(g0, s0, g1, s1, b - a, low, high, 0.0, 0.0)
+            continue
         # Jumps of the slope are bounded by mm along the ray: all is brought to them.
         e2 = slabs[2, 3] + i * slabs[2, 4] + j * slabs[2, 5]
         length = math.sqrt(e0 * e0 + e1 * e1 + e2 * e2)
         e0, e1, e2 = e0 / length, e1 / length, e2 / length
         a, b, s0, s1 = a * length, b * length, s0 / length, s1 / length
-        beam[1], beam[3] = beam[1] / length, beam[3] / length
+        beam[0], beam[1], beam[2], beam[3] = p0, e0 * c0, p1, e1 * c1
         beam[4], beam[5], beam[6] = e0 * e0, e1 * e1, e2 * e2
         beam[7], beam[8], beam[9] = 2.0 * e0 * e1, 2.0 * e0 * e2, 2.0 * e1 * e2
-        low, high, up, down = curvature(scene.hessians, scene.kinks, k, beam, a, b)
-    else:
-        low, high = over_cells(cells, beam[0], beam[1], beam[2], beam[3], a, b)
-    if opposite:
-        return ROOT if crosses_once(g0, s0, s1, b - a, low, high, up, down) else SPLIT
-    if g0 < 0.0:
-        clear = stays_positive(-g0, -s0, -g1, -s1, b - a, -high, -low, down, up)
-    else:
-        clear = stays_positive(g0, s0, g1, s1, b - a, low, high, up, down)
-    return DONE if clear else SPLIT
+        low, high, up, down = curvature(hessians, kinks, k, beam, a, b)
+        S[LOW + m] = look_closer(g0, s0, g1, s1, b - a, low, high, up, down)
 
 
 @lane_loop
@@ -473,11 +495,21 @@ def isolate(
             roots = 0
         if not cornered:
             judge(S, n, slabs, scene.hulls, k)
+        look_at_all(
+            S,
+            n,
+            slabs,
+            cornered,
+            scene.hessians,
+            scene.kinks,
+            k,
+            held.beam,
+            cells,
+            shortest,
+        )
         halves = 0
         for m in range(n):
             code = S[LOW + m]
-            if cornered or code == DOUBT:
-                code = look_closer(S, m, slabs, scene, k, held.beam, shortest, cells)
             if code == ROOT:
                 S[RI + roots], S[RJ + roots], S[RT + roots] = S[I + m], S[J + m], S[TA + m]
                 S[RA + roots], S[RGA + roots], S[RS + roots] = S[A + m], S[GA + m], S[SA + m]
