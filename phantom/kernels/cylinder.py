@@ -228,6 +228,34 @@ def polish(
 
 
 @kernel
+def cells_between(p: float, d: float, start: float, end: float) -> tuple[int, int]:
+    """Return the first and the last cell that p + w d runs through for w in [start, end]."""
+    a, b = p + start * d, p + end * d
+    first = min(max(int(min(a, b) - _EDGE), 0), CELLS - 1)
+    last = min(max(int(max(a, b) + _EDGE), 0), CELLS - 1)
+    return first, last
+
+
+@kernel
+def within_row(
+    i: int, first: int, last: int, p: float, d: float, start: float, end: float
+) -> tuple[float, float]:
+    """Return the part of [start, end] for which p + w d is in cell i, a hair wider than it is."""
+    a, b = start, end
+    if first < last:
+        u, v = (i - _EDGE - p) / d, (i + 1 + _EDGE - p) / d
+        if u > v:
+            u, v = v, u
+        if i > 0 and i < CELLS - 1:
+            a, b = max(a, u), min(b, v)
+        elif (i == 0) == (d > 0):
+            b = min(b, v)
+        else:
+            a = max(a, u)
+    return a, b
+
+
+@kernel
 def curvature(
     hessians: Floats, kinks: Floats, k: int, lane: Floats, start: float, end: float
 ) -> tuple[float, float, float, float]:
@@ -238,25 +266,10 @@ def curvature(
     """
     low, high, up, down = math.inf, -math.inf, 0.0, 0.0
     p1, d1, p2, d2 = lane[0], lane[1], lane[2], lane[3]
-    a1, b1 = p1 + start * d1, p1 + end * d1
-    first = min(max(int(min(a1, b1) - _EDGE), 0), CELLS - 1)
-    last = min(max(int(max(a1, b1) + _EDGE), 0), CELLS - 1)
+    first, last = cells_between(p1, d1, start, end)
     for i in range(first, last + 1):
-        # The part of the ray over this row of cells, a hair wider than it is.
-        a, b = start, end
-        if first < last:
-            u, v = (i - _EDGE - p1) / d1, (i + 1 + _EDGE - p1) / d1
-            if u > v:
-                u, v = v, u
-            if i > 0 and i < CELLS - 1:
-                a, b = max(a, u), min(b, v)
-            elif (i == 0) == (d1 > 0):
-                b = min(b, v)
-            else:
-                a = max(a, u)
-        a2, b2 = p2 + a * d2, p2 + b * d2
-        left = min(max(int(min(a2, b2) - _EDGE), 0), CELLS - 1)
-        right = min(max(int(max(a2, b2) + _EDGE), 0), CELLS - 1)
+        a, b = within_row(i, first, last, p1, d1, start, end)
+        left, right = cells_between(p2, d2, a, b)
         for j in range(left, right + 1):
             least = most = 0.0
             for pair in range(6):

@@ -79,16 +79,6 @@ def value(c: Row, t: float) -> float:
 
 
 @lane
-def slope(c: Row, t: float) -> float:
-    """Return the polynomial's derivative at t."""
-    s = (6.0 * c[6]) * t + 5.0 * c[5]
-    s = s * t + 4.0 * c[4]
-    s = s * t + 3.0 * c[3]
-    s = s * t + 2.0 * c[2]
-    return s * t + c[1]
-
-
-@lane
 def value_and_slope(c: Row, t: float) -> tuple[float, float]:
     """Return the polynomial and its derivative at t, by one scheme of Horner's."""
     v = c[6]

@@ -271,7 +271,7 @@ def collect(
     """Fill the lanes of a segment from the pixels of a rectangle; return how many there are.
 
     An interval is what of [0, 1] lies between the section planes ``knot`` and ``knot + 1``,
-    F_k >= 0 > F_k+1, and within the box. ``knots`` (n, 6) and ``slabs`` (3, 8) hold a plane's value
+    F_k >= 0 > F_k+1, and within the box. ``knots`` (n, 6) and ``slabs`` (3, 7) hold a plane's value
     and its slope along the ray, each with its steps to the next row and column; a slab's half
     width follows.
     """

@@ -113,9 +113,7 @@ def combine(
                         number += 1
             sort_events(events, order, number)
             for e in range(number):
-                nodes[e] = kept[order[e]]
-            for e in range(number):
-                order[e] = nodes[e]
+                order[e] = kept[order[e]]
             width = end - j
             for m in range(width):
                 wrong[m] = 0

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
 from phantom.kernels.compiling import kernel
-from phantom.kernels.isolation import ERROR_MM, isolate
+from phantom.kernels.isolation import isolate
 from phantom.kernels.lanes import TILE_COLUMNS, TILE_ROWS, collect
+from phantom.kernels.roots import ERROR_MM
 from phantom.kernels.scratch import Scratch
 from phantom.kernels.slots import clear, cut, ellipsoids, other_quadrics, settle
 from phantom.kernels.spans import combine

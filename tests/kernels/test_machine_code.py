@@ -10,7 +10,7 @@ import numba
 import pytest
 from llvmlite.binding import get_host_cpu_features
 
-from phantom.kernels import isolation, lanes, slots, spans
+from phantom.kernels import lanes, roots, slots, spans, verdicts
 
 pytestmark = pytest.mark.skipif(
     platform.machine() not in ("x86_64", "AMD64"), reason="reads the names of x86's registers"
@@ -37,12 +37,12 @@ LOOPS = {
         {"vdivpd": 5},
     ),
     "judge": (
-        isolation.judge,
+        verdicts.judge,
         (FLOATS, INT, MATRIX, TENSOR, INT),
         {"vsqrtpd": 2, "vdivpd": 3},
     ),
-    "first guess": (isolation.first_guess, (FLOATS, INT), {"vsqrtpd": 1, "vdivpd": 3}),
-    "newton": (isolation.newton, (FLOATS, INT), {"vdivpd": 2}),
+    "first guess": (roots.first_guess, (FLOATS, INT), {"vsqrtpd": 1, "vdivpd": 3}),
+    "newton": (roots.newton, (FLOATS, INT), {"vdivpd": 2}),
     "ellipsoids": (
         slots.ellipsoids,
         (FLOATS, MATRIX, FLOAT, FLOAT, FLOAT, MATRIX, INT, INT, INT, INT, INT, INT),
