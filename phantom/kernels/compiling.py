@@ -21,8 +21,12 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
+import numpy as np
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
+
+
+_INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 @cache
@@ -78,9 +82,14 @@ def kernel(function: Kernel) -> Kernel:
     return _compiled(function)
 
 
+def inner(function: Kernel) -> Kernel:
+    """Compile a function that only kernels call: it cannot be called from Python."""
+    return _compiled(function, **_INNER)
+
+
 def lane(function: Kernel) -> Kernel:
     """Compile a function that is laid into the loops that call it, so that they can be packed."""
-    return _compiled(function, fastmath={"contract"}, forceinline=True, no_cpython_wrapper=True)
+    return _compiled(function, fastmath={"contract"}, forceinline=True, **_INNER)
 
 
 def lane_loop(function: Kernel) -> Kernel:
@@ -88,7 +97,16 @@ def lane_loop(function: Kernel) -> Kernel:
 
     A product and a sum may be rounded once instead of twice; nothing else is loosened.
     """
-    return _compiled(function, fastmath={"contract"})
+    return _compiled(function, fastmath={"contract"}, **_INNER)
+
+
+def whole(value: int) -> int:
+    """Return a whole number whose value is not part of its type.
+
+    Numba takes a literal for a type of its own and would compile what is called with a variable
+    that begins as one a second time.
+    """
+    return np.int64(value)  # type: ignore[return-value]
 
 
 def _compiled(function: Kernel, **options: Any) -> Kernel:
@@ -101,6 +119,9 @@ def _compiled(function: Kernel, **options: Any) -> Kernel:
     finally:
         settings.CACHE_DIR = before
     return cast(Kernel, compiled)
+
+
+whole = lane(whole)
 
 
 def _marker() -> Path:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.lanes import (
     AT_I,
     AT_J,
@@ -102,7 +102,7 @@ def halve(S: Floats, n: int) -> None:
         S[SB + n + m], S[TB + n + m] = S[YSB + m], S[YTB + m]
 
 
-@kernel
+@inner
 def isolate(
     n: int,
     i0: int,
@@ -153,13 +153,13 @@ def isolate(
     cornered = scene.cornered[k] != 0
     cells = held.cells
     bounded = cornered
-    roots = 0
+    roots = whole(0)
     while n > 0:
         if roots + n > HELD:
             if filled + roots > len(pixels):
                 return -1
             filled = polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)
-            roots = 0
+            roots = whole(0)
         if not cornered:
             judge(S, n, slabs, scene.hulls, k)
         if not bounded and in_doubt(S, n):
@@ -177,7 +177,7 @@ def isolate(
             cells,
             shortest,
         )
-        halves = 0
+        halves = whole(0)
         for m in range(n):
             code = S[LOW + m]
             if code == ROOT:

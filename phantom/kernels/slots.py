@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.lanes import LANES
 from phantom.kernels.leaves import quadric_leaf
 from phantom.kernels.scratch import Scratch
@@ -33,7 +33,7 @@ def clear(ends: Floats, slot: int) -> None:
         ends[2 * slot + 1, p] = 0.0
 
 
-@kernel
+@inner
 def settle(
     leaf: int,
     united: bool,
@@ -215,7 +215,7 @@ def ellipsoids(
     return left
 
 
-@kernel
+@inner
 def other_quadrics(
     scene: Scene,
     leaf: int,
@@ -262,7 +262,7 @@ def other_quadrics(
                 -shift,
                 length - shift,
                 shift,
-                0,
+                whole(0),
                 entries,
                 exits,
                 held.found,

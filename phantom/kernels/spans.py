@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.csg import sort_events, surviving, toggle
 from phantom.kernels.scratch import MOST, Scratch
 
@@ -65,7 +65,7 @@ def put(sums: Floats, rays: Floats, row: int, column: int, width: int, out: Floa
         sums[j] = 0.0
 
 
-@kernel
+@inner
 def combine(
     scene: Scene,
     held: Scratch,
@@ -103,7 +103,7 @@ def combine(
             if mask == 0:
                 j = end
                 continue
-            number = 0
+            number = whole(0)
             for bit in range(count):
                 if mask >> bit & 1:
                     for side in range(2):
@@ -119,7 +119,7 @@ def combine(
                 wrong[m] = 0
             for e in range(number - 1):
                 falls(ends, order[e], order[e + 1], start + j, width, wrong)
-            width = 1
+            width = whole(1)
             while width < end - j and wrong[width] == 0:
                 width += 1
             for channel in range(channels):

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner, kernel, whole
 from phantom.kernels.isolation import isolate
 from phantom.kernels.lanes import TILE_COLUMNS, TILE_ROWS, collect
 from phantom.kernels.roots import ERROR_MM
@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@kernel
+@inner
 def plane_along(
     n0: float, n1: float, n2: float, h: float, rays: Floats, center: Floats, into: Floats
 ) -> None:
@@ -35,7 +35,7 @@ def plane_along(
         into[step] = n0 * rays[step, 0] + n1 * rays[step, 1] + n2 * rays[step, 2]
 
 
-@kernel
+@inner
 def cylinder_records(
     scene: Scene,
     leaf: int,
@@ -50,7 +50,7 @@ def cylinder_records(
 ) -> int:
     """Record where the rays of a tile enter and leave the segments of a generalized cylinder."""
     rays, knots, slabs, middle = held.rays, held.knots, held.slabs, held.middle
-    filled = 0
+    filled = whole(0)
     center = scene.leaf_center[leaf]
     parts = scene.first_part[leaf + 1] - scene.first_part[leaf]
     # What is left of a chord in the next part may be far shorter than the chord itself.
@@ -115,7 +115,7 @@ def cylinder_records(
     return filled
 
 
-@kernel
+@inner
 def aim_tile(view: Floats, row: int, column: int, rows: int, columns: int, rays: Floats) -> float:
     """Write the rays of a tile; return the longest way from source to pixel in it, in mm."""
     for axis in range(3):
@@ -137,7 +137,7 @@ def aim_tile(view: Floats, row: int, column: int, rows: int, columns: int, rays:
     return math.sqrt(longest)
 
 
-@kernel
+@inner
 def quadric_slots(
     scene: Scene,
     leaf: int,
@@ -180,7 +180,7 @@ def quadric_slots(
     return other_quadrics(scene, leaf, i0, i1, j0, j1, columns, held, slots + 1)
 
 
-@kernel
+@inner
 def leaf_slots(
     scene: Scene,
     row: int,
@@ -194,7 +194,7 @@ def leaf_slots(
     held: Scratch,
 ) -> int:
     """Fill the slots of a tile; return how many there are, or -1 for no room."""
-    slots = 0
+    slots = whole(0)
     for leaf in range(len(scene.leaf_radius)):
         i0, i1 = max(leaf_fields[leaf, 0] - row, 0), min(leaf_fields[leaf, 1] - row, rows)
         j0, j1 = max(leaf_fields[leaf, 2] - column, 0), min(leaf_fields[leaf, 3] - column, columns)
