@@ -202,7 +202,7 @@ def plan(
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
-    acquisition, noise = request.acquisition, request.noise
+    acquisition, noise = _acquisition(request, technique), request.noise
     check_cost(acquisition, detector, beam, phantom.document.materials, limits)
     check_exposure(phantom, view, beam, acquisition)
     presentation = _presentation(request.presentation, technique)
@@ -260,6 +260,18 @@ def _presentation(asked: Presentation, technique: library.Technique) -> Presenta
     if filled.mode == "window":
         _ = filled.window  # refused here, before anything is traced
     return filled
+
+
+def _acquisition(request: RadiographRequest, technique: library.Technique) -> Acquisition | None:
+    """Return the exposure; the technique's dose where the request says nothing of it."""
+    asked, usual = request.acquisition, technique.air_kerma_ugy
+    if usual is None or (asked is None and "acquisition" in request.model_fields_set):
+        return asked
+    if asked is None:
+        return Acquisition(detector_air_kerma_ugy=usual)
+    if {"mas", "detector_air_kerma_ugy"} & asked.model_fields_set:
+        return asked
+    return _filled(asked, detector_air_kerma_ugy=usual)
 
 
 def _beam(asked: Beam, technique: library.Technique) -> Beam:
