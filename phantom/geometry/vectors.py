@@ -21,3 +21,10 @@ def unit(vectors: Floats) -> Floats:
 def plane_cross(a: Floats, b: Floats) -> Floats:
     """Return ``a x b`` of vectors in a plane: positive where b lies anticlockwise of a."""
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+
+
+def box_corners(bounds: Floats) -> Floats:
+    """Return the (8, 3) corners of a (2, 3) box of least and greatest coordinates."""
+    choice = np.array([[(i >> axis) & 1 for axis in range(3)] for i in range(8)])
+    corners: Floats = np.asarray(bounds, dtype=np.float64)[choice, np.arange(3)]
+    return corners

@@ -1,7 +1,7 @@
 """From a phantom and a view to a radiograph: geometry, Beer's law, presentation."""
 
 from phantom.imaging.beam import Beam, attenuations_per_mm
-from phantom.imaging.camera import Projection, box_corners, projection
+from phantom.imaging.camera import Projection, projection
 from phantom.imaging.detection import (
     Absorber,
     Acquisition,
@@ -56,7 +56,6 @@ __all__ = [
     "Truth",
     "View",
     "attenuations_per_mm",
-    "box_corners",
     "contrast_jnd",
     "covering",
     "document_sha256",

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from phantom.document.asked import Asked
 from phantom.document.base import Number, refuse, told
 from phantom.errors import InvalidInputError, Problem
-from phantom.imaging.asked import Asked
 from phantom.imaging.grey_scales import between_percentiles, equalised, stretched, windowed
 from phantom.imaging.gsdf import Gsdf
 
