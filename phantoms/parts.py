@@ -183,8 +183,11 @@ def _stretched(along: FloatArray, first: float, last: float, count: int) -> Floa
     """Return ``count`` places from first to last, spread as those of ``along`` are."""
     import numpy as np
 
-    spread = np.interp(np.linspace(0.0, 1.0, count), np.linspace(0.0, 1.0, len(along)), along)
-    return first + (spread - along[0]) * (last - first) / (along[-1] - along[0])
+    spread: FloatArray = np.interp(
+        np.linspace(0.0, 1.0, count), np.linspace(0.0, 1.0, len(along)), along
+    )
+    share: FloatArray = (spread - along[0]) / (along[-1] - along[0])
+    return first + share * (last - first)
 
 
 def _straight(new: FloatArray, along: FloatArray, values: FloatArray) -> FloatArray:
