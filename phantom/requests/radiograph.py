@@ -34,7 +34,7 @@ from phantom.imaging.beam import DEFAULT_ANODE
 from phantom.imaging.presentation import OF_MODE
 from phantom.imaging.refusals import check_exposure
 from phantom.imaging.truth import Kind
-from phantom.imaging.truth_trace import check_kinds, named_leaves
+from phantom.imaging.truth_trace import check_kinds
 from phantom.requests.exposures import check_cost, words_of
 from phantom.requests.limits import Limits
 from phantom.requests.subject import LibraryPhantom, Subject, read_request
@@ -198,7 +198,7 @@ def plan(
     limits.check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
     kinds = check_kinds(request.truth)
     if kinds:
-        limits.check_truth(grid.columns, grid.rows, len(named_leaves(phantom)))
+        limits.check_truth(grid.columns, grid.rows, len(phantom.named_leaves))
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
