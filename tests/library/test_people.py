@@ -32,6 +32,18 @@ def test_heights_and_weights_have_the_published_means():
         assert 0.2 < np.corrcoef(heights, weights)[0, 1] < 0.6
 
 
+@pytest.mark.parametrize(
+    ("sex", "by_70_cm", "by_80_cm"), [("male", 3.0, 5.0), ("female", 5.0, 8.0)]
+)
+def test_people_shrink_as_they_were_seen_to(sex, by_70_cm, by_80_cm):
+    # Sorkin, Muller, Andres 1999.
+    grown = mean_person(sex, 30.0).height_cm
+    assert mean_person(sex, 20.0).height_cm == grown
+    assert grown - mean_person(sex, 70.0).height_cm == pytest.approx(by_70_cm, abs=0.3)
+    assert grown - mean_person(sex, 80.0).height_cm == pytest.approx(by_80_cm, abs=0.3)
+    assert mean_person(sex, 80.0).tallness == pytest.approx(0.0, abs=0.01)
+
+
 def test_shares_and_ages_are_as_asked():
     people = _drawn(4000, female=0.25, age_years=(30.0, 50.0))
     women = np.mean([p.sex == "female" for p in people])
