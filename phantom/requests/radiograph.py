@@ -134,10 +134,11 @@ class RadiographPlan:
     def render(
         self,
         *,
+        workers: int | None = None,
         cancelled: Callable[[], bool] | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> Radiograph:
-        """Trace it.
+        """Trace it, on so many threads; the result does not depend on their number.
 
         Raises
         ------
@@ -150,6 +151,7 @@ class RadiographPlan:
             self.beam,
             acquisition=self.acquisition,
             noise=self.noise,
+            workers=workers,
             cancelled=cancelled,
             progress=progress,
         )
@@ -157,10 +159,11 @@ class RadiographPlan:
     def tell(
         self,
         *,
+        workers: int | None = None,
         cancelled: Callable[[], bool] | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> Truth:
-        """Trace its ground truth.
+        """Trace its ground truth, on so many threads.
 
         Raises
         ------
@@ -168,7 +171,12 @@ class RadiographPlan:
             ``cancelled()`` turned true.
         """
         return ground_truth(
-            self.phantom, self.view, self.truth, cancelled=cancelled, progress=progress
+            self.phantom,
+            self.view,
+            self.truth,
+            workers=workers,
+            cancelled=cancelled,
+            progress=progress,
         )
 
 
@@ -185,6 +193,22 @@ def plan(
         Every problem found, with the path of its field in the request.
     """
     request, phantom = read_request(RadiographRequest, tree, known)
+    return plan_of(request, phantom, limits)
+
+
+def plan_of(
+    request: RadiographRequest, phantom: Phantom, limits: Limits | None = None
+) -> RadiographPlan:
+    """Return what a request asks for, of a phantom that is ready.
+
+    The phantom need not be the one that the request describes, which then only says whose views
+    and techniques hold: a series prepares each phantom once.
+
+    Raises
+    ------
+    InvalidInputError
+        As for :func:`plan`.
+    """
     technique, recommended = library.Technique(), "ap"
     if isinstance(request.phantom, LibraryPhantom):
         entry = library.entry(request.phantom.name)
