@@ -7,16 +7,23 @@ from collections.abc import Iterable
 from starlette.datastructures import QueryParams
 
 from phantom.errors import InvalidInputError, Problem
-from phantom.requests.words import PARAMETERS, WORDS, parameters, request_tree
+from phantom.requests.words import PARAMETERS, WORDS, abnormality, parameters, request_tree
+
+ABNORMALITY = "abnormality"
 
 
 def radiograph_tree(name: str, query: QueryParams) -> tuple[dict[str, object], tuple[Problem, ...]]:
     """Return the request that ``/v1/radiographs/{name}?view=ap&parameters.radius_mm=30`` means.
 
-    With it come the problems of the query itself.
+    What is wrong with the phantom is written ``abnormality=TYPE,NAME=VALUE``, as often as needed.
+    With the request come the problems of the query itself.
     """
     own, rest = _split(query)
-    return request_tree({"name": name, "parameters": parameters(own)}, rest)
+    wrong = [abnormality(text) for word, text in rest if word == ABNORMALITY]
+    subject: dict[str, object] = {"name": name, "parameters": parameters(own)}
+    if wrong:
+        subject["abnormalities"] = wrong
+    return request_tree(subject, [pair for pair in rest if pair[0] != ABNORMALITY])
 
 
 def phantom_of(query: QueryParams) -> dict[str, object]:
@@ -44,6 +51,6 @@ def _split(query: QueryParams) -> tuple[list[tuple[str, str]], list[tuple[str, s
 
 DESCRIBED = [
     {"name": word, "in": "query", "schema": {"type": "string"}, "description": f"/{'/'.join(path)}"}
-    for word, path in WORDS.items()
+    for word, path in (*WORDS.items(), (ABNORMALITY, ("phantom", "abnormalities")))
 ]
 """The words for OpenAPI, each with the field of the request that it sets."""

@@ -32,11 +32,14 @@ if TYPE_CHECKING:
         Presentation,
         Radiograph,
         Scatter,
+        StereoPair,
         View,
         preset_view,
         radiograph,
+        stereo_pair,
     )
     from phantom.scene import Phantom, load
+    from phantom.stereo import Screen
     from phantom.tracing import Intervals, intervals, materials_at, path_lengths
 
     __version__: str
@@ -62,6 +65,8 @@ __all__ = [
     "Problem",
     "Radiograph",
     "Scatter",
+    "Screen",
+    "StereoPair",
     "UnknownPhantomError",
     "View",
     "__version__",
@@ -72,6 +77,7 @@ __all__ = [
     "path_lengths",
     "preset_view",
     "radiograph",
+    "stereo_pair",
 ]
 
 _HOMES = {
@@ -97,11 +103,14 @@ _HOMES = {
         "Presentation",
         "Radiograph",
         "Scatter",
+        "StereoPair",
         "View",
         "preset_view",
         "radiograph",
+        "stereo_pair",
     ),
     "phantom.scene": ("Phantom", "load"),
+    "phantom.stereo": ("Screen",),
     "phantom.tracing": ("Intervals", "intervals", "materials_at", "path_lengths"),
 }
 _HOME = {name: home for home, found in _HOMES.items() for name in found}

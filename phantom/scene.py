@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from phantom import document as doc
 from phantom.compiled.build import Compiled, build
+from phantom.compiled.surfacing import surfacing
 
 Floats = NDArray[np.float64]
 
@@ -49,6 +50,21 @@ class Phantom:
     def leaf_bounds(self) -> Floats:
         """Box ``(L, 2, 3)`` in mm of each leaf by itself."""
         return self.compiled.leaf_bounds
+
+    @property
+    def surfacing_leaves(self) -> tuple[int, ...]:
+        """Numbers of the leaves that the final solid can keep something of."""
+        return surfacing(self.compiled.scene)
+
+    @property
+    def named_leaves(self) -> tuple[int, ...]:
+        """Numbers of those among them that have a name; the others have no ground truth."""
+        names = self.leaf_names
+        # The label of an unnamed leaf is its place in the document, a JSON pointer.
+        unnamed = ("/solid", "/definitions")
+        return tuple(
+            i for i in self.surfacing_leaves if names[i] and not names[i].startswith(unnamed)
+        )
 
     @property
     def bounds(self) -> Floats:

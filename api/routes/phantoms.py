@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
+from urllib.parse import quote
 
 from anyio.to_thread import run_sync
 from fastapi import APIRouter, Request
@@ -30,6 +31,10 @@ class PhantomDescription(PhantomTitle):
 
     views: tuple[str, ...]
     parameters: dict[str, Any]
+    abnormalities: dict[str, dict[str, Any]]
+    """JSON schema of each, by its type."""
+    thumbnail: str
+    """Where a small radiograph of it is to be had, relative to this description."""
 
 
 def routes(service: Service) -> APIRouter:
@@ -50,6 +55,10 @@ def routes(service: Service) -> APIRouter:
             summary=entry.summary,
             views=entry.views,
             parameters=entry.parameters.model_json_schema(),
+            abnormalities={
+                kind: model.model_json_schema() for kind, model in entry.abnormalities.items()
+            },
+            thumbnail=f"../radiographs/{quote(entry.name)}?columns=256",
         )
 
     @router.post(

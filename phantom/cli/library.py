@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from phantom.cli.console import answer, reporting
-from phantom.cli.options import AsJson, Settings
+from phantom.cli.options import Abnormalities, AsJson, Settings
 
 
 def list_phantoms(as_json: AsJson = False) -> None:
@@ -30,6 +30,7 @@ def show(
         bool, typer.Option("--document", help="Print the phantom's document instead.")
     ] = False,
     settings: Settings = None,
+    abnormality: Abnormalities = None,
     as_json: AsJson = False,
 ) -> None:
     """Show one phantom of the library: its parameters and views, or its document."""
@@ -39,8 +40,8 @@ def show(
 
         entry = library.entry(name)
         if document:
-            wanted: Any = subject(name, settings)
-            built = library.document(name, wanted["parameters"])
+            wanted: Any = subject(name, settings, abnormality)
+            built = library.document(name, wanted["parameters"], wanted.get("abnormalities", ()))
             answer(built.model_dump(mode="json", exclude_none=True))
             return
         schema = entry.parameters.model_json_schema()
@@ -52,12 +53,21 @@ def show(
                     "summary": entry.summary,
                     "views": list(entry.views),
                     "parameters": schema,
+                    "abnormalities": {
+                        kind: model.model_json_schema()
+                        for kind, model in entry.abnormalities.items()
+                    },
                 }
             )
             return
         answer(f"{entry.name}: {entry.title}\n\n{entry.summary}\n\nviews: {' '.join(entry.views)}")
         for parameter, field in schema.get("properties", {}).items():
             answer(f"\n--set {parameter}={field.get('default')}\n    {_meaning(field)}")
+        for kind, model in entry.abnormalities.items():
+            answer(f"\n--abnormality {kind}\n    {model.__doc__}")
+            for part, field in model.model_json_schema().get("properties", {}).items():
+                if part not in ("type", "name"):
+                    answer(f"    {part}={field.get('default', '')}: {_meaning(field)}")
 
 
 def _meaning(field: dict[str, Any]) -> str:

@@ -13,24 +13,43 @@ Settings = Annotated[
     typer.Option("--set", metavar="NAME=VALUE", help="A parameter of the library phantom."),
 ]
 
+Abnormalities = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--abnormality",
+        metavar="TYPE,NAME=VALUE,…|JSON",
+        help="Something wrong with the library phantom; may be repeated.",
+    ),
+]
 
-def subject(target: str, settings: list[str] | None) -> dict[str, object]:
+
+def subject(
+    target: str, settings: list[str] | None, abnormalities: list[str] | None = None
+) -> dict[str, object]:
     """Return the request's ``phantom`` for a library name or a document's file.
 
     Raises
     ------
     InvalidInputError
-        A file that cannot be read, or parameters given for one.
+        A file that cannot be read, or parameters or abnormalities given for one.
     """
     from phantom import library
     from phantom.errors import InvalidInputError, Problem
-    from phantom.requests.words import parameters
+    from phantom.requests.words import abnormality, parameters
 
     if target in library.names() or not _is_file(target):
-        return {"name": target, "parameters": parameters(map(_pair, settings or ()))}
-    if settings:
-        message = "found --set with a file; expected it with a phantom of the library"
-        raise InvalidInputError([Problem("/phantom/parameters", "unknown_field", message)])
+        wanted: dict[str, object] = {"name": target}
+        wanted["parameters"] = parameters(map(_pair, settings or ()))
+        if abnormalities:
+            wanted["abnormalities"] = [abnormality(text) for text in abnormalities]
+        return wanted
+    for option, field, given in (
+        ("--set", "parameters", settings),
+        ("--abnormality", "abnormalities", abnormalities),
+    ):
+        if given:
+            message = f"found {option} with a file; expected it with a phantom of the library"
+            raise InvalidInputError([Problem(f"/phantom/{field}", "unknown_field", message)])
     return {"document": read_file(target)}
 
 
@@ -42,7 +61,7 @@ def read_file(name: str) -> object:
 
 
 def json_text(given: str, path: str) -> str:
-    """Return JSON given as it is or in a file; ``path`` is where the request has it.
+    """Return JSON given as it is or in a file, or ``none``; ``path`` is where a request has it.
 
     Raises
     ------
@@ -51,7 +70,7 @@ def json_text(given: str, path: str) -> str:
     """
     from phantom.errors import InvalidInputError, Problem
 
-    if given.lstrip()[:1] == "{":
+    if given.lstrip()[:1] == "{" or given.strip() == "none":
         return given
     try:
         text = Path(given).read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from phantom.cli.console import Bar, answer, reporting, say
-from phantom.cli.options import AsJson, Settings, json_text, subject
+from phantom.cli.options import Abnormalities, AsJson, Settings, json_text, subject
 
 if TYPE_CHECKING:
     from phantom.imaging import Radiograph
@@ -71,7 +71,9 @@ def make(
     ] = None,
     acquisition: Annotated[
         str | None,
-        _word("Dose, focal spot, scatter, detector: a file or JSON.", "FILE|JSON", "--acquisition"),
+        _word(
+            "Dose, focal spot, scatter, detector; none is ideal.", "FILE|JSON|none", "--acquisition"
+        ),
     ] = None,
     dose_ugy: Annotated[
         str | None, _word("Air kerma at the detector in the open field.", "UGY", "--dose-ugy")
@@ -144,6 +146,7 @@ def make(
         typer.Option("--blind/--no-blind", help="Leave out of the file what it says of itself."),
     ] = None,
     settings: Settings = None,
+    abnormality: Abnormalities = None,
     as_json: AsJson = False,
 ) -> None:
     """X-ray a phantom of the library, or a document, and write the picture."""
@@ -158,7 +161,7 @@ def make(
         if truth_output is not None and truth is None:
             options["truth"] = "all"
         given = {word: options[word] for word in WORDS if options[word] is not None}
-        planned = plan(*request_tree(subject(target, settings), given.items()))
+        planned = plan(*request_tree(subject(target, settings, abnormality), given.items()))
         pose = planned.chosen.get("view", "view")
         path = Path(output or f"{planned.phantom.document.name}-{pose}.png")
         planned.check_format(format_of_path(path))

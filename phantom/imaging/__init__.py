@@ -1,7 +1,7 @@
 """From a phantom and a view to a radiograph: geometry, Beer's law, presentation."""
 
 from phantom.imaging.beam import Beam, attenuations_per_mm
-from phantom.imaging.camera import Projection, box_corners, projection
+from phantom.imaging.camera import Projection, projection
 from phantom.imaging.detection import (
     Absorber,
     Acquisition,
@@ -22,6 +22,7 @@ from phantom.imaging.presentation import Presentation, contrast_jnd, present
 from phantom.imaging.presets import DetectorGrid, Preset
 from phantom.imaging.result import IMAGES, QUANTITIES, Quantity, Radiograph
 from phantom.imaging.spectrum import Spectrum
+from phantom.imaging.stereo import StereoPair, stereo_pair
 from phantom.imaging.truth import KINDS, LeafTruth, Truth
 from phantom.imaging.truth_trace import ground_truth
 from phantom.imaging.view import Detector, View
@@ -53,10 +54,10 @@ __all__ = [
     "Radiograph",
     "Scatter",
     "Spectrum",
+    "StereoPair",
     "Truth",
     "View",
     "attenuations_per_mm",
-    "box_corners",
     "contrast_jnd",
     "covering",
     "document_sha256",
@@ -67,4 +68,5 @@ __all__ = [
     "preset_view",
     "projection",
     "radiograph",
+    "stereo_pair",
 ]

@@ -12,6 +12,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 import numpy as np
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from phantom.document.asked import Asked
 from phantom.document.base import Name, Number, refuse, told
 from phantom.document.substances import (
     CompositionMaterial,
@@ -19,7 +20,6 @@ from phantom.document.substances import (
     Material,
     ReferenceMaterial,
 )
-from phantom.imaging.asked import Asked
 from phantom.imaging.spectrum import Spectrum, monochromatic
 from phantom.imaging.spectrum_tables import Anode, anode_spectrum, check_kvp
 from phantom.imaging.view import FloatArray

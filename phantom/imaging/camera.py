@@ -100,10 +100,3 @@ def projection(view: View) -> Projection:
     translation = -rotation @ source
     matrix = intrinsics @ np.column_stack([rotation, translation])
     return Projection(matrix, intrinsics, rotation, translation, distance)
-
-
-def box_corners(bounds: FloatArray) -> FloatArray:
-    """Return the (8, 3) corners of a (2, 3) box of least and greatest coordinates."""
-    choice = np.array([[(i >> axis) & 1 for axis in range(3)] for i in range(8)])
-    corners: FloatArray = np.asarray(bounds, dtype=np.float64)[choice, np.arange(3)]
-    return corners

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from phantom.geometry.vectors import box_corners
 from phantom.imaging.beam import Beam, attenuations_per_mm, depends_on_energy
-from phantom.imaging.camera import box_corners, projection
+from phantom.imaging.camera import projection
 from phantom.imaging.detection import Acquisition, Exposed, NoiseKey, air_gap_mm, expose
 from phantom.imaging.refusals import check_exposure
 from phantom.imaging.result import Radiograph, sealed

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from phantom.document.asked import Asked
 from phantom.document.base import Integer, Number, refuse, told
 from phantom.errors import InvalidInputError, Problem
-from phantom.imaging.asked import Asked
 
 FloatArray = NDArray[np.float64]
 

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from phantom.errors import InvalidInputError, Problem
-from phantom.imaging.camera import box_corners, projection
+from phantom.geometry.vectors import box_corners
+from phantom.imaging.camera import projection
 from phantom.imaging.poses import DEFAULT_ANGLE_DEG, DEFAULT_LATERALITY, Laterality, Pose, pose
 from phantom.imaging.presets import PREVIEW_PIXELS, DetectorGrid, Preset
 from phantom.imaging.view import MAX_PITCH_MM, MIN_PITCH_MM, Detector, View

@@ -15,11 +15,11 @@ others from the detector: a left lateral faces the image's left, a right lateral
 
 from __future__ import annotations
 
-import math
 from typing import Final, Literal, NamedTuple, get_args
 
 import numpy as np
 
+from phantom.geometry.vectors import sine_cosine
 from phantom.imaging.view import FloatArray
 
 Laterality = Literal["left", "right"]
@@ -68,19 +68,10 @@ class Pose(NamedTuple):
     down: FloatArray
 
 
-def _sine_cosine(angle_deg: float) -> tuple[float, float]:
-    """Return sine and cosine, exact at whole quarter turns."""
-    quarters, rest = divmod(angle_deg, 90.0)
-    if rest == 0.0:
-        return ((0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0))[int(quarters) % 4]
-    angle = math.radians(angle_deg)
-    return math.sin(angle), math.cos(angle)
-
-
 def c_arm(primary_deg: float, secondary_deg: float) -> Pose:
     """Return the pose of a C-arm whose detector is at these DICOM positioner angles."""
-    sin_p, cos_p = _sine_cosine(primary_deg)
-    sin_s, cos_s = _sine_cosine(secondary_deg)
+    sin_p, cos_p = sine_cosine(primary_deg)
+    sin_s, cos_s = sine_cosine(secondary_deg)
     outward = np.array([sin_p, -cos_p, 0.0])
     head = np.array([0.0, 0.0, 1.0])
     side = -1.0 if cos_p < 0 else 1.0
@@ -98,7 +89,7 @@ def mammogram(angle_deg: float, laterality: Laterality) -> Pose:
     chest wall is at the image's left for a left breast and at its right for a right one; the
     axilla, or the lateral side, is at the top.
     """
-    sin_a, cos_a = _sine_cosine(angle_deg)
+    sin_a, cos_a = sine_cosine(angle_deg)
     outward = 1.0 if laterality == "left" else -1.0
     return Pose(
         beam=np.array([sin_a * outward, 0.0, -cos_a]),

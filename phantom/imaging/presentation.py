@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from phantom.document.asked import Asked
 from phantom.document.base import Number, refuse, told
 from phantom.errors import InvalidInputError, Problem
-from phantom.imaging.asked import Asked
 from phantom.imaging.grey_scales import between_percentiles, equalised, stretched, windowed
 from phantom.imaging.gsdf import Gsdf
 
@@ -50,11 +50,12 @@ class Presentation(Asked):
         ),
     ] = "stretch"
     scope: Annotated[
-        Literal["image", "fixed"],
+        Literal["image", "pair", "fixed"],
         told(
             "Scope",
             "none",
-            "What the mapping depends on: the image's values, or nothing but the window.",
+            "What the mapping depends on: the image's values, those of both images of a pair"
+            " (where there is one, the default), or nothing but the window.",
         ),
     ] = "image"
     window_center: Annotated[
@@ -128,14 +129,29 @@ class Presentation(Asked):
         if (self.window_center is None) != (self.window_width is None):
             missing = "window_center" if self.window_center is None else "window_width"
             refuse("missing", ((missing,), "missing; expected both a centre and a width"))
-        own = "fixed" if self.mode == "window" else "image"
-        if "scope" in self.model_fields_set and self.scope != own:
-            message = f"found {self.scope!r} with mode {self.mode!r}; expected {own!r}"
+        own = ("fixed",) if self.mode == "window" else ("image", "pair")
+        if "scope" not in self.model_fields_set:
+            self.__dict__["scope"] = own[0]
+        elif self.scope not in own:
+            expected = " or ".join(map(repr, own))
+            message = f"found {self.scope!r} with mode {self.mode!r}; expected {expected}"
             refuse("contradiction", (("scope",), message))
-        self.__dict__["scope"] = own
         if self.mode == "percentile" and self.percentiles is None:
             self.__dict__["percentiles"] = USUAL_PERCENTILES
         return self
+
+    @property
+    def of_pair(self) -> Presentation:
+        """The same for a pair, whose two images share one mapping unless it was said otherwise."""
+        if "scope" in self.model_fields_set or self.mode == "window":
+            return self
+        return self.model_copy(update={"scope": "pair"})
+
+    def check_alone(self) -> None:
+        """Refuse the scope of a pair for an image by itself (``/presentation/scope``)."""
+        if self.scope == "pair":
+            message = "found 'pair' for one image; expected 'image', or a pair"
+            raise InvalidInputError([Problem(f"{self.place}/scope", "no_pair", message)])
 
     @property
     def full_scale(self) -> int:

@@ -6,16 +6,16 @@ from typing import Annotated, ClassVar, Final
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
-from phantom.document.base import Integer, Length, Number, Point, refuse, told
-from phantom.imaging.asked import Asked
+from phantom.document.asked import Asked, plain
+from phantom.document.base import Length, Number, Point, refuse, told
+from phantom.document.pixels import Side, within_pixels
 from phantom.imaging.poses import WITH_ANGLE, WITH_LATERALITY, Laterality, PresetName
-from phantom.imaging.view import MAX_SIDE_PIXELS, Pitch, plain, within_pixels
+from phantom.imaging.view import Pitch
 
 PREVIEW_PIXELS: Final = 1024
 SOURCE_DETECTOR_MM: Final = 1150.0
 
 _Turn = Annotated[Number, Field(ge=-180, le=180)]
-_Side = Annotated[Integer, Field(ge=1, le=MAX_SIDE_PIXELS)]
 
 
 class Preset(Asked):
@@ -87,8 +87,8 @@ class DetectorGrid(Asked):
 
     place: ClassVar[str] = "/detector"
 
-    columns: Annotated[_Side, told("Columns", "pixels", "Pixels in a row.")] = PREVIEW_PIXELS
-    rows: Annotated[_Side, told("Rows", "pixels", "Pixels in a column.")] = PREVIEW_PIXELS
+    columns: Annotated[Side, told("Columns", "pixels", "Pixels in a row.")] = PREVIEW_PIXELS
+    rows: Annotated[Side, told("Rows", "pixels", "Pixels in a column.")] = PREVIEW_PIXELS
     pitch_mm: Annotated[
         Pitch | None,
         BeforeValidator(plain),

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from phantom.errors import InvalidInputError, Problem
+from phantom.geometry.vectors import box_corners
 from phantom.imaging.beam import Beam
-from phantom.imaging.camera import box_corners, projection
+from phantom.imaging.camera import projection
 from phantom.imaging.detection import Acquisition, Window, traced_window
 from phantom.imaging.detection.falloff import source_detector_mm
 from phantom.imaging.detection.kerma import photons_per_mm2

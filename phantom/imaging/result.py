@@ -48,7 +48,9 @@ IMAGES: Final = QUANTITIES[:3]
 """The quantities with one value a pixel."""
 
 
-class _Scale(TypedDict):
+class Scale(TypedDict):
+    """What a presentation must know of a quantity, as arguments of :func:`present`."""
+
     rises_with_attenuation: bool
     open_field: float
 
@@ -161,22 +163,23 @@ class Radiograph:
         self, name: str = "signal", presentation: Presentation | None = None
     ) -> GreyArray:
         """Return the grey levels of a quantity that has one value a pixel."""
-        return present(self._image(name), presentation, **self._scale(name))
+        return present(self.image(name), _alone(presentation), **self.scale(name))
 
     def shown(
         self, name: str = "signal", presentation: Presentation | None = None
     ) -> dict[str, Any]:
         """Return the stage that makes the grey levels, with its values, as plain JSON values."""
-        return presentation_stage(self._image(name), presentation, **self._scale(name))
+        return presentation_stage(self.image(name), _alone(presentation), **self.scale(name))
 
-    def _image(self, name: str) -> FloatArray:
+    def image(self, name: str) -> FloatArray:
+        """Return a quantity that has one value a pixel."""
         image = self.quantity(name)
         if name not in IMAGES:
             message = f"{name!r} is no image; a picture shows one of {', '.join(IMAGES)}"
             raise InvalidInputError([Problem("/quantity", "not_an_image", message)])
         return image
 
-    def _scale(self, name: str) -> _Scale:
+    def scale(self, name: str) -> Scale:
         """Return what a presentation must know of a quantity."""
         return {
             "rises_with_attenuation": name == "line_integral",
@@ -273,6 +276,13 @@ class Radiograph:
         from phantom.imaging.metadata import metadata
 
         return metadata(self)
+
+
+def _alone(presentation: Presentation | None) -> Presentation | None:
+    """Return the presentation of one image; refused where it asks for a pair."""
+    if presentation is not None:
+        presentation.check_alone()
+    return presentation
 
 
 def _beam_kind(view: View) -> str:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.imaging.camera import Projection, box_corners
+from phantom.geometry.vectors import box_corners
+from phantom.imaging.camera import Projection
 from phantom.imaging.view import FloatArray, View, unit
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.errors import CancelledError
-from phantom.imaging.camera import Projection, box_corners
+from phantom.geometry.vectors import box_corners
+from phantom.imaging.camera import Projection
 from phantom.imaging.truth import Box, FloatArray
 from phantom.imaging.view import View, unit
 

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.compiled.layout import DIFFERENCE, INTERSECTION, Scene
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging.camera import Projection, projection
 from phantom.imaging.truth import KINDS, Box, FloatArray, Kind, Landmark, LeafTruth, Truth
@@ -37,31 +36,6 @@ class _Apart(Phantom):
     @property
     def material_names(self) -> tuple[str, ...]:
         return self.names
-
-
-def named_leaves(phantom: Phantom) -> tuple[int, ...]:
-    """Return the numbers of the leaves that have a name and can surface.
-
-    What an operator only takes away, or asks for as a limit, has no ground truth.
-    """
-    scene = phantom.compiled.scene
-    found = []
-    for leaf, label in enumerate(phantom.leaf_names):
-        # The label of an unnamed leaf is its place in the document, a JSON pointer.
-        named = label and not label.startswith(("/solid", "/definitions"))
-        if named and scene.leaf_material[leaf] >= 0 and _surfaces(scene, leaf):
-            found.append(leaf)
-    return tuple(found)
-
-
-def _surfaces(scene: Scene, leaf: int) -> bool:
-    node = leaf
-    while scene.parent[node] >= 0:
-        above = int(scene.parent[node])
-        if scene.operator[above] in (DIFFERENCE, INTERSECTION) and scene.left[above] != node:
-            return False
-        node = above
-    return True
 
 
 def ground_truth(
@@ -96,7 +70,7 @@ def ground_truth(
     """
     chosen = check_kinds(kinds)
     camera = projection(view)
-    leaves = named_leaves(phantom)
+    leaves = phantom.named_leaves
     names = tuple(phantom.leaf_names[i] for i in leaves)
     size = (view.detector.columns, view.detector.rows)
     crops: list[tuple[Box | None, FloatArray]] = [(None, np.zeros((0, 0)))] * len(leaves)

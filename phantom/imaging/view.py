@@ -14,14 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
-from phantom.document.base import Integer, Point, Vector, by_shape, direction, refuse, told
-from phantom.imaging.asked import Asked
-
-MAX_SIDE_PIXELS: Final = 16384
-"""Most columns, and most rows, of a detector."""
-
-MAX_PIXELS: Final = 2**26
-"""Most pixels of a detector (8192 × 8192); a chest detector has 7.6 million."""
+from phantom.document.asked import Asked, plain
+from phantom.document.base import Point, Vector, by_shape, direction, refuse, told
+from phantom.document.pixels import Side, within_pixels
 
 MIN_PITCH_MM: Final = 1e-6
 MAX_PITCH_MM: Final = 1000.0
@@ -38,14 +33,8 @@ MIN_BEAM_SINE: Final = 1e-6
 FloatArray = NDArray[np.float64]
 
 
-def plain(value: object) -> object:
-    """Turn a numpy array, or number, into plain lists and numbers; leave all else."""
-    return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
-
-
 _Point = Annotated[Point, BeforeValidator(plain)]
 _Vector = Annotated[Vector, BeforeValidator(plain)]
-_Side = Annotated[Integer, Field(ge=1, le=MAX_SIDE_PIXELS)]
 _Pitch = Annotated[float, Field(strict=True, ge=MIN_PITCH_MM, le=MAX_PITCH_MM)]
 Pitch = Annotated[
     _Pitch | tuple[_Pitch, _Pitch],
@@ -59,15 +48,6 @@ def unit(vector: Vector) -> FloatArray:
     return np.asarray(vector, dtype=np.float64) / math.hypot(*vector)
 
 
-def within_pixels(rows: int, info: ValidationInfo) -> int:
-    """Refuse ``rows`` that make, with the model's ``columns``, too many pixels."""
-    columns = info.data.get("columns", 1)
-    if columns * rows > MAX_PIXELS:
-        message = f"found {columns} × {rows} pixels; expected {MAX_PIXELS} at most"
-        refuse("too_large", ((), message))
-    return rows
-
-
 class Detector(Asked):
     """A flat detector: its pose and its grid of pixels."""
 
@@ -76,8 +56,8 @@ class Detector(Asked):
     center: Annotated[_Point, told("Centre", "mm", "World point at the middle of the grid.")]
     right: Annotated[_Vector, told("Right", "none", "Direction along a row, columns rising.")]
     down: Annotated[_Vector, told("Down", "none", "Direction down a column, rows rising.")]
-    columns: Annotated[_Side, told("Columns", "pixels", "Pixels in a row.")]
-    rows: Annotated[_Side, told("Rows", "pixels", "Pixels in a column.")]
+    columns: Annotated[Side, told("Columns", "pixels", "Pixels in a row.")]
+    rows: Annotated[Side, told("Rows", "pixels", "Pixels in a column.")]
     pitch_mm: Annotated[
         Pitch,
         BeforeValidator(plain),

@@ -68,6 +68,11 @@ def switch(text: str, path: Path) -> Read:
     return ({True: {}, False: None}[value] if isinstance(value, bool) else value), ()
 
 
+def optional(text: str, path: Path) -> Read:
+    """Return null for ``none``, else what the text is by itself."""
+    return (None if text.strip() == "none" else scalar(text)), ()
+
+
 def grid(text: str, path: Path) -> Read:
     """Return PRIMARY,SCATTER as a grid of these transmissions, null for ``none``; or JSON."""
     if text.strip()[:1] == "{":
@@ -94,6 +99,7 @@ def kinds(text: str, path: Path) -> Read:
 
 
 FORMS: Final[Mapping[str, Callable[[str, Path], Read]]] = {
+    "acquisition": optional,
     "filtration": filters,
     "scatter": switch,
     "grid": grid,

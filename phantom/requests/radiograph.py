@@ -34,7 +34,7 @@ from phantom.imaging.beam import DEFAULT_ANODE
 from phantom.imaging.presentation import OF_MODE
 from phantom.imaging.refusals import check_exposure
 from phantom.imaging.truth import Kind
-from phantom.imaging.truth_trace import check_kinds, named_leaves
+from phantom.imaging.truth_trace import check_kinds
 from phantom.requests.exposures import check_cost, words_of
 from phantom.requests.limits import Limits
 from phantom.requests.subject import LibraryPhantom, Subject, read_request
@@ -134,10 +134,11 @@ class RadiographPlan:
     def render(
         self,
         *,
+        workers: int | None = None,
         cancelled: Callable[[], bool] | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> Radiograph:
-        """Trace it.
+        """Trace it, on so many threads; the result does not depend on their number.
 
         Raises
         ------
@@ -150,6 +151,7 @@ class RadiographPlan:
             self.beam,
             acquisition=self.acquisition,
             noise=self.noise,
+            workers=workers,
             cancelled=cancelled,
             progress=progress,
         )
@@ -157,10 +159,11 @@ class RadiographPlan:
     def tell(
         self,
         *,
+        workers: int | None = None,
         cancelled: Callable[[], bool] | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> Truth:
-        """Trace its ground truth.
+        """Trace its ground truth, on so many threads.
 
         Raises
         ------
@@ -168,7 +171,12 @@ class RadiographPlan:
             ``cancelled()`` turned true.
         """
         return ground_truth(
-            self.phantom, self.view, self.truth, cancelled=cancelled, progress=progress
+            self.phantom,
+            self.view,
+            self.truth,
+            workers=workers,
+            cancelled=cancelled,
+            progress=progress,
         )
 
 
@@ -185,6 +193,22 @@ def plan(
         Every problem found, with the path of its field in the request.
     """
     request, phantom = read_request(RadiographRequest, tree, known)
+    return plan_of(request, phantom, limits)
+
+
+def plan_of(
+    request: RadiographRequest, phantom: Phantom, limits: Limits | None = None
+) -> RadiographPlan:
+    """Return what a request asks for, of a phantom that is ready.
+
+    The phantom need not be the one that the request describes, which then only says whose views
+    and techniques hold: a series prepares each phantom once.
+
+    Raises
+    ------
+    InvalidInputError
+        As for :func:`plan`.
+    """
     technique, recommended = library.Technique(), "ap"
     if isinstance(request.phantom, LibraryPhantom):
         entry = library.entry(request.phantom.name)
@@ -198,11 +222,11 @@ def plan(
     limits.check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
     kinds = check_kinds(request.truth)
     if kinds:
-        limits.check_truth(grid.columns, grid.rows, len(named_leaves(phantom)))
+        limits.check_truth(grid.columns, grid.rows, len(phantom.named_leaves))
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
-    acquisition, noise = request.acquisition, request.noise
+    acquisition, noise = _acquisition(request, technique), request.noise
     check_cost(acquisition, detector, beam, phantom.document.materials, limits)
     check_exposure(phantom, view, beam, acquisition)
     presentation = _presentation(request.presentation, technique)
@@ -260,6 +284,18 @@ def _presentation(asked: Presentation, technique: library.Technique) -> Presenta
     if filled.mode == "window":
         _ = filled.window  # refused here, before anything is traced
     return filled
+
+
+def _acquisition(request: RadiographRequest, technique: library.Technique) -> Acquisition | None:
+    """Return the exposure; the technique's dose where the request says nothing of it."""
+    asked, usual = request.acquisition, technique.air_kerma_ugy
+    if usual is None or (asked is None and "acquisition" in request.model_fields_set):
+        return asked
+    if asked is None:
+        return Acquisition(detector_air_kerma_ugy=usual)
+    if {"mas", "detector_air_kerma_ugy"} & asked.model_fields_set:
+        return asked
+    return _filled(asked, detector_air_kerma_ugy=usual)
 
 
 def _beam(asked: Beam, technique: library.Technique) -> Beam:

@@ -40,6 +40,10 @@ class LibraryPhantom(Model):
     parameters: Annotated[
         dict[str, Any], told("Parameters", "none", "What it is built from; each has a default.")
     ] = Field(default_factory=dict)
+    abnormalities: Annotated[
+        tuple[dict[str, Any], ...],
+        told("Abnormalities", "none", "What is wrong with it, each with its type."),
+    ] = ()
 
 
 class OwnPhantom(Model):
@@ -104,10 +108,12 @@ def _load(subject: Mapping[str, Any]) -> Iterator[Phantom]:
 
     document, name = subject.get("document"), subject.get("name")
     given = subject.get("parameters", {})
+    wrong = subject.get("abnormalities", ())
+    shaped = isinstance(given, Mapping) and isinstance(wrong, list | tuple)
     if isinstance(document, Mapping):
         try:
             yield scene.load(document)
         except InvalidInputError as error:
             raise InvalidInputError(prefixed("/document", error.problems)) from None
-    elif isinstance(name, str) and isinstance(given, Mapping) and "document" not in subject:
-        yield library.build(name, **given)
+    elif isinstance(name, str) and shaped and "document" not in subject:
+        yield library.prepare(name, given, wrong)

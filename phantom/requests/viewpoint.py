@@ -12,8 +12,9 @@ from pydantic import ValidationError
 from phantom.document import Model, Point, Vector, told, validate_model
 from phantom.document.base import Choice
 from phantom.errors import InvalidInputError, Problem
+from phantom.geometry.vectors import box_corners
 from phantom.imaging import Detector, DetectorGrid, Preset, PresetName, View, place
-from phantom.imaging.camera import box_corners, projection
+from phantom.imaging.camera import projection
 from phantom.imaging.placement import COVER_MARGIN
 
 if TYPE_CHECKING:

@@ -65,6 +65,25 @@ def parameters(pairs: Iterable[tuple[str, str]]) -> dict[str, object]:
     return found
 
 
+def abnormality(text: str) -> object:
+    """Return an abnormality written TYPE,NAME=VALUE,..., or as a JSON object.
+
+    A part without an equals sign is refused with the path of the whole.
+    """
+    if text.lstrip()[:1] == "{":
+        return scalar(text)
+    kind, *parts = text.split(",")
+    found: dict[str, object] = {"type": kind.strip()}
+    for part in parts:
+        name, equals, value = (piece.strip() for piece in part.partition("="))
+        if not (name and equals) or name in found:
+            message = f"found {part[:60]!r}; expected NAME=VALUE, each name once"
+            path = pointer(("phantom", "abnormalities"))
+            raise InvalidInputError([Problem(path, "not_a_pair", message)])
+        found[name] = scalar(value)
+    return found
+
+
 def request_tree(
     phantom: Mapping[str, object], words: Iterable[tuple[str, str]]
 ) -> tuple[dict[str, object], tuple[Problem, ...]]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from phantom.imaging import Detector, View, box_corners, projection
+from phantom.geometry.vectors import box_corners
+from phantom.imaging import Detector, View, projection
 
 RNG = np.random.default_rng(1993)
 

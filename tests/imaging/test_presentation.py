@@ -55,7 +55,7 @@ def test_neighbouring_doubles_still_span_the_scale() -> None:
 
 @pytest.mark.parametrize(
     ("field", "value"),
-    [("bits", 12), ("mode", "log"), ("scope", "pair"), ("polarity", "white"), ("gamma", 2.2)],
+    [("bits", 12), ("mode", "log"), ("scope", "set"), ("polarity", "white"), ("gamma", 2.2)],
 )
 def test_what_is_not_offered_is_refused(field: str, value: Any) -> None:
     with pytest.raises(InvalidInputError) as refusal:

@@ -6,8 +6,8 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
+from phantom.document.asked import Asked
 from phantom.document.base import Boolean, Integer, Number, refuse, told
-from phantom.imaging.asked import Asked
 from phantom.imaging.detection.receptor import DetectorModel
 
 AIR_KERMA_UGY: Final = 2.5

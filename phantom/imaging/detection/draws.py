@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from phantom.document.asked import Asked
 from phantom.document.base import Integer, told
-from phantom.imaging.asked import Asked
 from phantom.imaging.detection.philox import Words, fractions, philox4x32
 from phantom.imaging.view import FloatArray
 

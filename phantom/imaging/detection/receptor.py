@@ -9,8 +9,8 @@ from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
+from phantom.document.asked import Asked
 from phantom.document.base import Integer, Number, refuse, told
-from phantom.imaging.asked import Asked
 
 AbsorberName = Literal["cesium_iodide", "amorphous_selenium", "gadolinium_oxysulfide"]
 

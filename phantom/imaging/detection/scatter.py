@@ -14,7 +14,8 @@ from typing import Final
 
 import numpy as np
 
-from phantom.imaging.camera import box_corners, projection
+from phantom.geometry.vectors import box_corners
+from phantom.imaging.camera import projection
 from phantom.imaging.detection.acquisition import Acquisition
 from phantom.imaging.detection.multiple import THICKEST_MM
 from phantom.imaging.detection.slab import amounts, kernel_per_mm2, water

@@ -1,4 +1,4 @@
-"""What a caller asks of imaging: models that refuse in this package's words.
+"""What a caller asks of an image: models that refuse in this package's words.
 
 A model of pydantic raises its own error when it is called. These raise the problems that a request
 over HTTP, or a command line, would give for the same fault, with the same paths.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
 from pydantic import ValidationError
 
 from phantom.document.base import Model
@@ -36,3 +37,8 @@ else:
         """A frozen model; ``place`` is its JSON pointer in a request."""
 
         place: ClassVar[str] = ""
+
+
+def plain(value: object) -> object:
+    """Turn a numpy array, or number, into plain lists and numbers; leave all else."""
+    return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value

@@ -1,0 +1,7 @@
+"""Pairs of radiographs: where the tube stands for each eye, and what the two pictures share."""
+
+from phantom.imaging.stereo.exposure import stereo_pair
+from phantom.imaging.stereo.eyes import Eyes, eyes
+from phantom.imaging.stereo.pair import EyePicture, StereoPair
+
+__all__ = ["EyePicture", "Eyes", "StereoPair", "eyes", "stereo_pair"]

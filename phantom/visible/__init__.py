@@ -1,0 +1,19 @@
+"""Visible light: the same solids as a camera sees them."""
+
+from phantom.visible.camera import Camera
+from phantom.visible.lights import DirectionalLight, Lighting, PointLight
+from phantom.visible.picture import Picture
+from phantom.visible.presets import CAMERA_NAMES, CameraPreset, preset_camera
+from phantom.visible.tone import Tone
+
+__all__ = [
+    "CAMERA_NAMES",
+    "Camera",
+    "CameraPreset",
+    "DirectionalLight",
+    "Lighting",
+    "Picture",
+    "PointLight",
+    "Tone",
+    "preset_camera",
+]
