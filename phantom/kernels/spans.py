@@ -96,6 +96,8 @@ def span(
     start: int,
     width: int,
     number: int,
+    to_row: int,
+    to_column: int,
     out: Floats,
 ) -> int:
     """Fill pixels of a row from their ``number`` ends, named in ``held.kept``; return how many.
@@ -150,7 +152,8 @@ def span(
                 add(ends, order[e], factors[channel, e], start, alike, sums)
                 used = True
         if used:
-            put(sums, held.rays, row, column, alike, out[channel, row, column : column + alike])
+            to = out[channel, to_row, to_column : to_column + alike]
+            put(sums, held.rays, row, column, alike, to)
     return alike
 
 
@@ -161,9 +164,11 @@ def combine(
     slots: int,
     rows: int,
     columns: int,
+    to_row: int,
+    to_column: int,
     out: Floats,
 ) -> None:
-    """Fill ``out`` (M, rows, columns) from the slots of a tile.
+    """Fill a tile of ``out`` (M, ., .), which begins at a row and a column there, from its slots.
 
     A row is looked at whole; where its pixels meet more slots than a mask has bits, half of it,
     and so on down to one pixel. What a pixel gets depends on nothing but its own ends.
@@ -194,5 +199,6 @@ def combine(
                         kept[number] = 2 * met[bit]
                         kept[number + 1] = 2 * met[bit] + 1
                         number += 2
-                j += span(scene, held, i, j, i * columns + j, end - j, number, out)
+                start = i * columns + j
+                j += span(scene, held, i, j, start, end - j, number, to_row + i, to_column + j, out)
             first = last

@@ -241,10 +241,12 @@ def tiles(
     shortest_mm: float,
     held: Scratch,
     out: Floats,
+    above: int,
     failed: Ints,
 ) -> int:
-    """Fill rows ``first_row`` to ``last_row`` of ``out`` (M, rows, columns); count tiles left out.
+    """Fill rows ``first_row`` to ``last_row`` of a picture; count tiles left out.
 
+    ``out`` (M, rows, columns) is the picture from row ``above`` on.
     ``view`` is (6, 3): the origin of pixel (0, 0)'s ray, its steps to the next row and column, the
     way from it to the pixel, and its steps. ``leaf_fields`` (L, 4) and ``fields`` (S, 4) are the
     pixels, first and last row and column, beyond which a leaf or a segment is not seen. The first
@@ -269,10 +271,9 @@ def tiles(
                 ERROR_MM / longest,
                 held,
             )
-            tile = out[:, row : row + rows, column : column + columns]
             if slots < 0:
                 failed[missing, 0], failed[missing, 1] = row, column
                 missing += 1
             else:
-                combine(scene, held, slots, rows, columns, tile)
+                combine(scene, held, slots, rows, columns, row - above, column, out)
     return missing
