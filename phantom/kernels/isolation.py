@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
 from phantom.kernels.compiling import inner, lane_loop, whole
+from phantom.kernels.glances import glance
 from phantom.kernels.lanes import (
     AT_I,
     AT_J,
@@ -138,6 +139,10 @@ def isolate(
     cornered = scene.cornered[k] != 0
     bounded = cornered
     roots = whole(0)
+    if table < 0:
+        if filled + 2 * n > len(pixels):
+            return -1
+        n, filled = glance(n, ox, oy, oz, scene, k, enough, held, filled, columns)
     base = n
     while base > 0:
         # The ends of the last intervals that are left, then those, split until none is in doubt.
