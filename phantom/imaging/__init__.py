@@ -15,7 +15,6 @@ from phantom.imaging.detection import (
 )
 from phantom.imaging.exposure import radiograph
 from phantom.imaging.gsdf import Gsdf
-from phantom.imaging.metadata import document_sha256
 from phantom.imaging.placement import covering, place, preset_view
 from phantom.imaging.poses import PRESETS, Pose, PresetName, pose
 from phantom.imaging.presentation import Presentation, contrast_jnd, present
@@ -60,7 +59,6 @@ __all__ = [
     "attenuations_per_mm",
     "contrast_jnd",
     "covering",
-    "document_sha256",
     "ground_truth",
     "place",
     "pose",

@@ -15,6 +15,7 @@ from pydantic import Field
 from phantom import library
 from phantom.document import Model, told
 from phantom.document.base import Boolean
+from phantom.document.identity import document_sha256
 from phantom.encode import Format
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import (
@@ -26,7 +27,6 @@ from phantom.imaging import (
     Radiograph,
     Truth,
     View,
-    document_sha256,
     ground_truth,
     radiograph,
 )

@@ -1,5 +1,6 @@
 """Rays through a phantom: checks, threads and the kernels."""
 
+from phantom.tracing.first_hits import FirstHits, first_hits
 from phantom.tracing.measure import Measure, measure
 from phantom.tracing.points import materials_at
 from phantom.tracing.pool import default_workers, warm
@@ -7,9 +8,11 @@ from phantom.tracing.raster import raster
 from phantom.tracing.rays import Intervals, intervals, path_lengths
 
 __all__ = [
+    "FirstHits",
     "Intervals",
     "Measure",
     "default_workers",
+    "first_hits",
     "intervals",
     "materials_at",
     "measure",

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from phantom.document.identity import document_sha256
 from phantom.errors import CancelledError, InvalidInputError
 from phantom.imaging import (
     QUANTITIES,
@@ -16,7 +17,6 @@ from phantom.imaging import (
     Detector,
     Presentation,
     View,
-    document_sha256,
     preset_view,
     radiograph,
 )
