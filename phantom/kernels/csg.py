@@ -14,7 +14,11 @@ Flags = NDArray[np.uint8]
 
 @kernel
 def sort_events(where: Floats, order: Ints, count: int) -> None:
-    """Sort ``order[:count]`` by ``where`` (Shell's method: few events, mostly in order)."""
+    """Sort ``order[:count]`` by ``where`` (Shell's method: few events, mostly in order).
+
+    Events at one place stand in the order of their numbers, so that what a ray adds up does not
+    depend on what other solids there are.
+    """
     gap = 1
     while gap < count // 3:
         gap = 3 * gap + 1
@@ -23,8 +27,11 @@ def sort_events(where: Floats, order: Ints, count: int) -> None:
             item = order[i]
             key = where[item]
             j = i
-            while j >= gap and where[order[j - gap]] > key:
-                order[j] = order[j - gap]
+            while j >= gap:
+                other = order[j - gap]
+                if where[other] < key or (where[other] == key and other < item):
+                    break
+                order[j] = other
                 j -= gap
             order[j] = item
         gap //= 3

@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 MOST = 62
-"""Slots that one row of a tile may meet."""
+"""Slots that pixels looked at together may meet: the bits of a mask."""
 
 _RECORDS = 64 * LANES
 
@@ -40,10 +40,10 @@ class Scratch(NamedTuple):
     owners: Ints  # (slots,) leaf
     masks: Ints  # (TILE_COLUMNS,) which slots a pixel meets
     wrong: Ints  # (TILE_COLUMNS,) where a span ends
-    met: Ints  # (MOST + 1,) slots of a row
-    events: Floats  # (2 MOST + 4,)
-    order: Ints  # (2 MOST + 4,)
-    factors: Floats  # (M, 2 MOST + 4)
+    met: Ints  # (slots,) those that some pixels meet
+    events: Floats  # (2 slots,)
+    order: Ints  # (2 slots,)
+    factors: Floats  # (M, 2 slots)
     sums: Floats  # (TILE_COLUMNS,)
     present: NDArray[np.uint8]  # (nodes,)
     nodes: Ints
@@ -56,7 +56,7 @@ class Scratch(NamedTuple):
 def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
     """Make what one thread needs for tiles of a scene with as many slots at most."""
     segments = int(np.diff(scene.first_segment).max(initial=0))
-    number = 2 * MOST + 4
+    number = 2 * slots
     ints = np.int64
     return Scratch(
         lanes=np.zeros(ROWS * STRIDE),
@@ -77,7 +77,7 @@ def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
         owners=np.empty(slots, dtype=ints),
         masks=np.empty(TILE_COLUMNS, dtype=ints),
         wrong=np.empty(TILE_COLUMNS, dtype=ints),
-        met=np.empty(MOST + 1, dtype=ints),
+        met=np.empty(slots, dtype=ints),
         events=np.empty(number),
         order=np.empty(number, dtype=ints),
         factors=np.empty((channels, number)),

@@ -38,10 +38,14 @@ def mark(ends: Floats, slot: int, start: int, width: int, bit: int, masks: Ints)
 
 @lane_loop
 def falls(ends: Floats, before: int, after: int, start: int, width: int, wrong: Ints) -> None:
-    """Note the pixels at which one end does not lie before the other."""
+    """Note the pixels at which one end does not lie before the other, by its number at a tie."""
     here, there = ends[before, start : start + width], ends[after, start : start + width]
-    for j in range(width):
-        wrong[j] |= 1 if here[j] > there[j] else 0
+    if before < after:
+        for j in range(width):
+            wrong[j] |= 1 if here[j] > there[j] else 0
+    else:
+        for j in range(width):
+            wrong[j] |= 1 if here[j] >= there[j] else 0
 
 
 @lane_loop
@@ -66,6 +70,91 @@ def put(sums: Floats, rays: Floats, row: int, column: int, width: int, out: Floa
 
 
 @kernel
+def look(ends: Floats, slots: int, start: int, width: int, masks: Ints, met: Ints) -> int:
+    """Note the slots that some pixels meet, and which of them each pixel does.
+
+    Returns how many there are, or -1 where a mask has no bit left; one pixel needs no mask.
+    """
+    for j in range(width):
+        masks[j] = 0
+    count = 0
+    for slot in range(slots):
+        if mark(ends, slot, start, width, 1 << min(count, MOST), masks) > 0:
+            met[count] = slot
+            count += 1
+            if count > MOST and width > 1:
+                return -1
+    return count
+
+
+@kernel
+def span(
+    scene: Scene,
+    held: Scratch,
+    row: int,
+    column: int,
+    start: int,
+    width: int,
+    number: int,
+    out: Floats,
+) -> int:
+    """Fill pixels of a row from their ``number`` ends, named in ``held.kept``; return how many.
+
+    They begin at lane ``start``, and are at most ``width``: those before the first one whose ends
+    come in another order.
+    """
+    ends, owners, order, events = held.ends, held.owners, held.order, held.events
+    wrong, factors, sums = held.wrong, held.factors, held.sums
+    present, nodes, kept = held.present, held.nodes, held.kept
+    leaves = len(scene.leaf_radius)
+    root = len(scene.parent) - 1
+    channels = out.shape[0]
+    for e in range(number):
+        order[e] = e
+        events[e] = ends[kept[e], start]
+    sort_events(events, order, number)
+    for e in range(number):
+        order[e] = kept[order[e]]
+    for m in range(width):
+        wrong[m] = 0
+    for e in range(number - 1):
+        falls(ends, order[e], order[e + 1], start, width, wrong)
+    alike = 1
+    while alike < width and wrong[alike] == 0:
+        alike += 1
+    for channel in range(channels):
+        for e in range(number):
+            factors[channel, e] = 0.0
+    for e in range(number):
+        toggle(
+            owners[order[e] // 2],
+            present,
+            scene.parent,
+            scene.operator,
+            scene.left,
+            scene.right,
+        )
+        if e == number - 1:
+            break
+        for m in range(
+            surviving(root, leaves, present, scene.operator, scene.left, scene.right, nodes, kept)
+        ):
+            channel = scene.leaf_material[kept[m]]
+            if channel >= 0:
+                factors[channel, e] -= 1.0
+                factors[channel, e + 1] += 1.0
+    for channel in range(channels):
+        used = False
+        for e in range(number):
+            if factors[channel, e] != 0.0:
+                add(ends, order[e], factors[channel, e], start, alike, sums)
+                used = True
+        if used:
+            put(sums, held.rays, row, column, alike, out[channel, row, column : column + alike])
+    return alike
+
+
+@kernel
 def combine(
     scene: Scene,
     held: Scratch,
@@ -73,91 +162,37 @@ def combine(
     rows: int,
     columns: int,
     out: Floats,
-) -> bool:
-    """Fill ``out`` (M, rows, columns) from the slots of a tile; False where there are too many."""
-    rays, ends, owners = held.rays, held.ends, held.owners
-    masks, wrong, met = held.masks, held.wrong, held.met
-    events, order, factors, sums = held.events, held.order, held.factors, held.sums
-    present, nodes, kept = held.present, held.nodes, held.kept
-    leaves = len(scene.leaf_radius)
-    root = len(scene.parent) - 1
-    channels = out.shape[0]
+) -> None:
+    """Fill ``out`` (M, rows, columns) from the slots of a tile.
+
+    A row is looked at whole; where its pixels meet more slots than a mask has bits, half of it,
+    and so on down to one pixel. What a pixel gets depends on nothing but its own ends.
+    """
+    masks, met, kept = held.masks, held.met, held.kept
     for i in range(rows):
-        start = i * columns
-        for j in range(columns):
-            masks[j] = 0
-        count = 0
-        for slot in range(slots):
-            if mark(ends, slot, start, columns, 1 << count, masks) > 0:
-                met[count] = slot
-                count += 1
-                if count > MOST:
-                    return False
-        j = 0
-        while j < columns:
-            mask = masks[j]
-            limit = min(columns, j + SPAN)
-            end = j + 1
-            while end < limit and masks[end] == mask:
-                end += 1
-            if mask == 0:
-                j = end
-                continue
-            number = 0
-            for bit in range(count):
-                if mask >> bit & 1:
-                    for side in range(2):
-                        order[number] = number
-                        kept[number] = 2 * met[bit] + side
-                        events[number] = ends[2 * met[bit] + side, start + j]
-                        number += 1
-            sort_events(events, order, number)
-            for e in range(number):
-                order[e] = kept[order[e]]
-            width = end - j
-            for m in range(width):
-                wrong[m] = 0
-            for e in range(number - 1):
-                falls(ends, order[e], order[e + 1], start + j, width, wrong)
-            width = 1
-            while width < end - j and wrong[width] == 0:
-                width += 1
-            for channel in range(channels):
-                for e in range(number):
-                    factors[channel, e] = 0.0
-            for e in range(number - 1):
-                toggle(
-                    owners[order[e] // 2],
-                    present,
-                    scene.parent,
-                    scene.operator,
-                    scene.left,
-                    scene.right,
-                )
-                for m in range(
-                    surviving(
-                        root, leaves, present, scene.operator, scene.left, scene.right, nodes, kept
-                    )
-                ):
-                    channel = scene.leaf_material[kept[m]]
-                    if channel >= 0:
-                        factors[channel, e] -= 1.0
-                        factors[channel, e + 1] += 1.0
-            toggle(
-                owners[order[number - 1] // 2],
-                present,
-                scene.parent,
-                scene.operator,
-                scene.left,
-                scene.right,
-            )
-            for channel in range(channels):
-                used = False
-                for e in range(number):
-                    if factors[channel, e] != 0.0:
-                        add(ends, order[e], factors[channel, e], start + j, width, sums)
-                        used = True
-                if used:
-                    put(sums, rays, i, j, width, out[channel, i, j : j + width])
-            j += width
-    return True
+        first = 0
+        while first < columns:
+            last = columns
+            count = look(held.ends, slots, i * columns + first, last - first, masks, met)
+            while count < 0:
+                last = first + (last - first + 1) // 2
+                count = look(held.ends, slots, i * columns + first, last - first, masks, met)
+            alone = last - first == 1
+            j = first
+            while j < last:
+                mask = masks[j - first]
+                end = j + 1
+                limit = min(last, j + SPAN)
+                while end < limit and masks[end - first] == mask:
+                    end += 1
+                if mask == 0:
+                    j = end
+                    continue
+                number = 0
+                for bit in range(count):
+                    if alone or mask >> bit & 1:
+                        kept[number] = 2 * met[bit]
+                        kept[number + 1] = 2 * met[bit] + 1
+                        number += 2
+                j += span(scene, held, i, j, i * columns + j, end - j, number, out)
+            first = last

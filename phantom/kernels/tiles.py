@@ -270,7 +270,9 @@ def tiles(
                 held,
             )
             tile = out[:, row : row + rows, column : column + columns]
-            if slots < 0 or not combine(scene, held, slots, rows, columns, tile):
+            if slots < 0:
                 failed[missing, 0], failed[missing, 1] = row, column
                 missing += 1
+            else:
+                combine(scene, held, slots, rows, columns, tile)
     return missing

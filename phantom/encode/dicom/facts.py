@@ -20,6 +20,8 @@ class Facts:
     ----------
     beam
         Unit vector of the central ray, from the source to the detector's centre; world axes LPS.
+    named_beam
+        The one that the view has its name by: of a stereo pair that between the eyes.
     right, down
         Unit vectors along the picture's rows and columns.
     pitch_mm
@@ -40,6 +42,7 @@ class Facts:
     """
 
     beam: Vector
+    named_beam: Vector
     right: Vector
     down: Vector
     pitch_mm: tuple[float, float]
@@ -59,24 +62,24 @@ class Facts:
     @property
     def is_mammogram(self) -> bool:
         """True for a breast seen from overhead or from the side, as a mammography unit does."""
-        return self.region == "breast" and abs(self.beam[1]) < 1e-3 and self.beam[2] < 1e-3
+        return (
+            self.region == "breast" and abs(self.named_beam[1]) < 1e-3 and self.named_beam[2] < 1e-3
+        )
 
 
 def facts(metadata: Mapping[str, Any]) -> Facts:
     """Return what the metadata of a radiograph says of it."""
     view, phantom, beam = metadata["view"], metadata["phantom"], metadata["beam"]
     detector = view["detector"]
-    source, distance = view["source"], None
-    if source is None:
-        ray = np.asarray(view["direction"], dtype=np.float64)
-    else:
-        ray = np.subtract(detector["center"], source)
-        distance = float(np.linalg.norm(ray))
+    ray = _central_ray(view)
+    distance = None if view["source"] is None else float(np.linalg.norm(ray))
+    middle = metadata.get("stereo", {}).get("view", view)
     anatomy = phantom.get("anatomy") or {}
     side = str(anatomy.get("laterality") or "").lower()
     pitch_x, pitch_y = metadata["pitch_mm"]
     return Facts(
         beam=_unit(ray),
+        named_beam=_unit(_central_ray(middle)),
         right=_unit(detector["right"]),
         down=_unit(detector["down"]),
         pitch_mm=(float(pitch_x), float(pitch_y)),
@@ -93,6 +96,13 @@ def facts(metadata: Mapping[str, Any]) -> Facts:
         filtration_mm=beam.get("filtration_mm") or {},
         mas=(metadata.get("acquisition") or {}).get("mas"),
     )
+
+
+def _central_ray(view: Mapping[str, Any]) -> NDArray[np.float64]:
+    """Return the way from the source to the detector's centre, or along a parallel beam."""
+    if view["source"] is None:
+        return np.asarray(view["direction"], dtype=np.float64)
+    return np.asarray(np.subtract(view["detector"]["center"], view["source"]))
 
 
 def _lower(word: str | None) -> str | None:
