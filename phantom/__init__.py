@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from phantom import library
+    from phantom import datasets, library
     from phantom.errors import (
         CancelledError,
         InvalidDocumentError,
@@ -96,6 +96,7 @@ __all__ = [
     "UnknownPhantomError",
     "View",
     "__version__",
+    "datasets",
     "first_hits",
     "intervals",
     "library",
@@ -165,8 +166,8 @@ _HOME = {name: home for home, found in _HOMES.items() for name in found}
 
 def __getattr__(name: str) -> object:
     """Load a public name when it is first asked for (PEP 562)."""
-    if name == "library":
-        return import_module("phantom.library")
+    if name in ("datasets", "library"):
+        return import_module(f"phantom.{name}")
     if name == "__version__":
         from importlib.metadata import version
 

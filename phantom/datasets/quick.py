@@ -82,6 +82,10 @@ def scattered(model: type[Model]) -> dict[str, Any]:
             low = max(told.get("minimum", 0.0), default - 3 * sd)
             high = min(told.get("maximum", default + 3 * sd), default + 3 * sd)
             if low < high:
-                found[name] = {"type": "normal", "mean": default, "sd": sd}
-                found[name] |= {"low": low, "high": high}
+                shape = {"mean": default, "sd": sd, "low": low, "high": high}
+                found[name] = {"type": "normal", **{k: _short(v) for k, v in shape.items()}}
     return found
+
+
+def _short(number: float) -> float:
+    return float(f"{number:.6g}")

@@ -1,5 +1,6 @@
 """From a phantom and a view to a radiograph: geometry, Beer's law, presentation."""
 
+from phantom.document.identity import document_sha256
 from phantom.imaging.beam import Beam, attenuations_per_mm
 from phantom.imaging.camera import Projection, projection
 from phantom.imaging.detection import (
@@ -59,6 +60,7 @@ __all__ = [
     "attenuations_per_mm",
     "contrast_jnd",
     "covering",
+    "document_sha256",
     "ground_truth",
     "place",
     "pose",

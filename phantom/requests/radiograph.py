@@ -15,7 +15,6 @@ from pydantic import Field
 from phantom import library
 from phantom.document import Model, told
 from phantom.document.base import Boolean
-from phantom.document.identity import document_sha256
 from phantom.encode import Format
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import (
@@ -27,6 +26,7 @@ from phantom.imaging import (
     Radiograph,
     Truth,
     View,
+    document_sha256,
     ground_truth,
     radiograph,
 )

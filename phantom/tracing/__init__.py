@@ -1,11 +1,11 @@
 """Rays through a phantom: checks, threads and the kernels."""
 
-from phantom.tracing.first_hits import FirstHits, first_hits
 from phantom.tracing.measure import Measure, measure
 from phantom.tracing.points import materials_at
 from phantom.tracing.pool import default_workers, warm
 from phantom.tracing.raster import raster
 from phantom.tracing.rays import Intervals, intervals, path_lengths
+from phantom.tracing.seen import FirstHits, first_hits
 
 __all__ = [
     "FirstHits",

@@ -84,10 +84,10 @@ def warm() -> None:
 
     from phantom.kernels.compiling import mark_complete
     from phantom.scene import load
-    from phantom.tracing.first_hits import first_hits
     from phantom.tracing.points import materials_at
     from phantom.tracing.raster import raster
     from phantom.tracing.rays import intervals, path_lengths
+    from phantom.tracing.seen import first_hits
     from phantom.tracing.shading import shaded
 
     phantom = load(

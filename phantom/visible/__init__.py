@@ -4,7 +4,7 @@ from phantom.visible.camera import Camera
 from phantom.visible.lights import DirectionalLight, Lighting, PointLight
 from phantom.visible.picture import Picture
 from phantom.visible.presets import CAMERA_NAMES, CameraPreset, preset_camera
-from phantom.visible.render import render
+from phantom.visible.rendering import render
 from phantom.visible.tone import Tone
 
 __all__ = [

@@ -42,10 +42,10 @@ class Width(NamedTuple):
 WIDTHS: Final[dict[str, dict[str, Width]]] = {
     METACARPAL: {
         "thumb": Width(15.5, 11.2, 14.8, 14.5, 8.6, 12.2),
-        "index": Width(16.5, 8.9, 15.4, 15.5, 9.4, 14.8),
-        "middle": Width(14.0, 8.9, 15.0, 16.0, 9.6, 15.0),
-        "ring": Width(11.6, 7.2, 13.0, 13.5, 8.0, 13.0),
-        "little": Width(12.4, 7.8, 12.4, 11.5, 7.4, 12.0),
+        "index": Width(15.4, 8.9, 15.4, 15.5, 9.4, 14.8),
+        "middle": Width(13.3, 8.9, 15.0, 16.0, 9.6, 15.0),
+        "ring": Width(11.2, 7.2, 13.0, 13.5, 8.0, 13.0),
+        "little": Width(11.8, 7.8, 12.4, 11.5, 7.4, 12.0),
     },
     PROXIMAL: {
         "thumb": Width(15.0, 9.2, 12.4, 11.5, 6.8, 8.4),

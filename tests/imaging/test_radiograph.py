@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from phantom.document.identity import document_sha256
 from phantom.errors import CancelledError, InvalidInputError
 from phantom.imaging import (
     QUANTITIES,
@@ -17,6 +16,7 @@ from phantom.imaging import (
     Detector,
     Presentation,
     View,
+    document_sha256,
     preset_view,
     radiograph,
 )

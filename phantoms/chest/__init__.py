@@ -1,0 +1,29 @@
+"""The chest: ribs, spine, shoulder girdle, lungs with vessels, heart, diaphragm, soft parts."""
+
+from __future__ import annotations
+
+from phantom.library import Entry, Technique
+from phantoms.chest.document import SUMMARY, build
+from phantoms.chest.parameters import Parameters, of_person
+from phantoms.chest.sources import SOURCES
+
+__all__ = ["SOURCES", "Parameters", "build", "entry"]
+
+_PA = Technique(
+    kvp=120.0,
+    source_detector_mm=1800.0,
+    object_detector_mm=150.0,
+    window=(3.55, 4.1),
+    air_kerma_ugy=2.5,
+)
+
+entry = Entry(
+    name="chest",
+    title="Chest",
+    summary=SUMMARY,
+    parameters=Parameters,
+    build=build,
+    views=("pa", "left_lateral"),
+    technique=_PA,
+    of_person=of_person,
+)
