@@ -50,6 +50,20 @@ WORDS: Mapping[str, tuple[str, ...]] = {
 }
 """Where each word's value stands in a request."""
 
+STEREO_WORDS: Mapping[str, tuple[str, ...]] = {
+    **WORDS,
+    "method": ("stereo", "method"),
+    "baseline_mm": ("stereo", "baseline_mm"),
+    "stereo_angle_deg": ("stereo", "angle_deg"),
+    "zero_parallax": ("stereo", "zero_parallax"),
+    "screen": ("stereo", "screen"),
+    "dose": ("stereo", "dose"),
+    "mono": ("stereo", "mono"),
+    "layout": ("stereo", "layout"),
+    "format": ("stereo", "format"),
+}
+"""The same for a pair."""
+
 WHOLE: Mapping[str, str] = {"view": "view", "acquisition": "acquisition"}
 """Words that may be a JSON object, and the part of the request that it then is."""
 
@@ -85,7 +99,9 @@ def abnormality(text: str) -> object:
 
 
 def request_tree(
-    phantom: Mapping[str, object], words: Iterable[tuple[str, str]]
+    phantom: Mapping[str, object],
+    words: Iterable[tuple[str, str]],
+    known: Mapping[str, tuple[str, ...]] = WORDS,
 ) -> tuple[dict[str, object], tuple[Problem, ...]]:
     """Return the request that the words ask for, as it would stand in JSON, and what is wrong.
 
@@ -97,9 +113,9 @@ def request_tree(
     tree: dict[str, object] = {"phantom": dict(phantom)}
     problems: list[Problem] = []
     for word, text in sorted(words, key=lambda pair: pair[0] not in WHOLE):
-        path = WORDS.get(word)
+        path = known.get(word)
         if path is None:
-            message = f"found an unknown word; expected one of {', '.join(WORDS)}"
+            message = f"found an unknown word; expected one of {', '.join(known)}"
             problems.append(Problem(pointer([word]), "unknown_field", message))
             continue
         value, wrong = FORMS.get(word, plain)(text, path)
