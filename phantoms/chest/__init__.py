@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from phantom.library import Entry, Technique
 from phantoms.chest.document import SUMMARY, build
 from phantoms.chest.parameters import Parameters, of_person
@@ -15,7 +17,9 @@ _PA = Technique(
     object_detector_mm=150.0,
     window=(3.55, 4.1),
     air_kerma_ugy=2.5,
+    field_mm=410.0,
 )
+_LATERAL = replace(_PA, object_detector_mm=230.0, window=(4.3, 5.4))
 
 entry = Entry(
     name="chest",
@@ -25,5 +29,6 @@ entry = Entry(
     build=build,
     views=("pa", "left_lateral"),
     technique=_PA,
+    techniques={"left_lateral": _LATERAL},
     of_person=of_person,
 )

@@ -49,7 +49,7 @@ def _fat(frame: Frame, z: float) -> float:
 def trunk_rows(frame: Frame) -> list[Row]:
     """Return the sections of the muscles' surface."""
     rows: list[Row] = [(z, -half, half, front, back) for z, half, front, back in _TRUNK]
-    return sampled(fitted(frame, rows), 16)
+    return sampled(fitted(frame, rows), 14)
 
 
 def _trunk(frame: Frame, name: str, material: str, layer: int) -> Solid:

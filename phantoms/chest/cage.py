@@ -169,7 +169,7 @@ class Cage:
             end_x, end_z = _FRONT_ENDS[number]
             end_z *= self.frame.z
             end, drop = self.turn_at(end_x * self.frame.x, end_z, front=True), height - end_z
-        turns = np.linspace(start, end, 10)
+        turns = np.linspace(start, end, 9)
         way = (turns - start) / (end - start)
         if number in _FREE:
             sunk = 0.25 * way + 0.75 * way**1.6

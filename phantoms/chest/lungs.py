@@ -55,7 +55,7 @@ def lung_rows(cage: Cage, side: str) -> list[Row]:
     wall = wall_mm(cage)
     floor, top = (FLOOR_Z - max(f.deeper_mm, 0.0)) * f.z, TOP_Z * f.z
     # Close together toward the round apex.
-    share = np.sin(np.linspace(0.0, np.pi / 2, 15))
+    share = np.sin(np.linspace(0.0, np.pi / 2, 13))
     rows: list[Row] = []
     for z in floor + (top - floor) * share:
         half, front, back = cage.section(z)
@@ -84,7 +84,7 @@ def dome_rows(cage: Cage, side: str) -> list[Row]:
     centre = top - down
     rows: list[Row] = []
     floor = (FLOOR_Z - max(f.deeper_mm, 0.0)) - 10.0
-    for angle in np.linspace(0.02, 0.5 * np.pi, 11):
+    for angle in np.linspace(0.02, 0.5 * np.pi, 9):
         h = centre + down * np.cos(angle)
         s = float(np.sin(angle))
         rows.append((h, x - across * s, x + across * s, y - along * s, y + along * s))

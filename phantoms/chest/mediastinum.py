@@ -15,7 +15,7 @@ from phantom.document import Solid, SplineContour
 from phantoms.chest.cage import Cage
 from phantoms.chest.courses import AORTA, ARTERIES, BRONCHI, TRACHEA, VEINS, Course
 from phantoms.chest.frame import MODEL_HEART_MM, Frame
-from phantoms.chest.shapes import Row, column, cone, fitted, rounded, sampled, tube
+from phantoms.chest.shapes import Row, column, cone, fitted, sampled, tube
 from phantoms.chest.spine import spine_y
 from phantoms.parts import union
 
@@ -66,7 +66,7 @@ def heart_rows(frame: Frame) -> list[Row]:
     wide = frame.sizes.heart_width_mm / MODEL_HEART_MM
     across = wide / frame.x  # the chest's own stretch is undone
     rows: list[Row] = []
-    for z, right, left, front, back in sampled(HEART, 17):
+    for z, right, left, front, back in sampled(HEART, 14):
         middle = 0.5 * (front + back)
         half = 0.5 * (back - front) * min(max(wide / frame.y, 0.85), 1.15)
         # The heart rides on the diaphragm.
@@ -133,11 +133,11 @@ def _cones(
 def middle(cage: Cage) -> Solid:
     """Return the soft tissue between the lungs and that beside the spine."""
     f = cage.frame
-    core = column("mediastinum", sampled(fitted(f, _MIDDLE), 11), "soft_tissue", rounded(2.3))
+    core = column("mediastinum", sampled(fitted(f, _MIDDLE), 10), "soft_tissue")
     rows: list[Row] = []
     for z in range(-230, 235, 45):
         y = spine_y(float(z))
         half = 19.5 + 3.0 * math.exp(-(((z + 60.0) / 90.0) ** 2))
         rows.append((float(z), -half, half, y - 15.0, y + 46.0))
-    beside = column("tissue beside the spine", fitted(f, rows), "muscle", rounded(2.2))
+    beside = column("tissue beside the spine", fitted(f, rows), "muscle")
     return union(core, beside)
