@@ -125,7 +125,10 @@ def stations(kind: str, width: Width, length_mm: float, bow_mm: float) -> list[S
     else:
         end = length_mm - head_length_mm(kind, width)
         table = _METACARPAL_HEAD if kind == METACARPAL else _PHALANX_HEAD
-        rows += [(end - back * length_mm, between(head, share)) for back, share in table]
+        # A stubby bone has less shaft, not less head.
+        room = (end - rows[-1][0]) / (table[0][0] * length_mm)
+        back_mm = min(1.0, 0.9 * room) * length_mm
+        rows += [(end - back * back_mm, between(head, share)) for back, share in table]
     first, last = rows[0][0], rows[-1][0]
 
     def bowed(z: float) -> float:

@@ -17,16 +17,6 @@ PLATE_MM: Final = 0.7
 _THIN_MM: Final = 0.45
 """Thickness of the cortex at the ends of a bone; an estimate."""
 _BOW: Final = {METACARPAL: 0.028, DISTAL: 0.0}
-_OUTLINE: Final = tuple(
-    (round(float(x), 6), round(float(y), 6))
-    for x, y in (
-        (
-            np.sign(np.cos(a)) * abs(np.cos(a)) ** 0.86,
-            np.sign(np.sin(a)) * abs(np.sin(a)) ** 0.86,
-        )
-        for a in np.linspace(0, 2 * np.pi, 16, endpoint=False)
-    )
-)
 
 
 class Knob(NamedTuple):
@@ -156,12 +146,12 @@ def bone(
 
     spongy = within(outer, shape.walls(outer), closed=(True, shape.kind == DISTAL))
     whole = union(
-        swept("cortex", outer, CORTEX, _OUTLINE, cuts=cuts),
+        swept("cortex", outer, CORTEX, cuts=cuts),
         *(knob.solid(knob.name, CORTEX, cuts) for knob in shape.knobs if kept(knob)),
         *(spur.model_copy(update={"cuts": tuple(cuts)}) for spur in spurs if kept(_knob(spur))),
     )
     core = union(
-        swept("spongiosa", spongy, SPONGIOSA, _OUTLINE, cuts=cuts),
+        swept("spongiosa", spongy, SPONGIOSA, cuts=cuts),
         *(
             knob.grown(-_under(shape)).solid(f"{knob.name} spongiosa", SPONGIOSA, cuts)
             for knob in shape.knobs
@@ -174,7 +164,7 @@ def bone(
     made = layered(
         _hollowed(whole, shape.hollows, "hollow"),
         _hollowed(core, plates, "inner hollow"),
-        *([swept("marrow", canal, MARROW, _OUTLINE, cuts=cuts)] if kept(middle) else []),
+        *([swept("marrow", canal, MARROW, cuts=cuts)] if kept(middle) else []),
         *inside,
     )
     return Difference(type="difference", solids=(made, *eroded)) if eroded else made
