@@ -13,8 +13,9 @@ def colors(materials, **look):
         {"type": "sphere", "center": [30 * i, 0, 0], "radius": 9, "material": name, **look}
         for i, name in enumerate(materials)
     ]
-    tree = {"format": "phantom/1", "name": "t", "materials": materials,
-            "solid": {"type": "union", "solids": [*balls, {**balls[0], "center": [0, 50, 0]}]}}  # fmt: skip
+    again = {**balls[0], "center": [0, 50, 0]}
+    solid = {"type": "union", "solids": [*balls, again]}
+    tree = {"format": "phantom/1", "name": "t", "materials": materials, "solid": solid}
     return looks(phantom.load(tree))
 
 
