@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from phantom import library
+    from phantom import datasets, library
     from phantom.errors import (
         CancelledError,
         InvalidDocumentError,
@@ -40,7 +40,26 @@ if TYPE_CHECKING:
     )
     from phantom.scene import Phantom, load
     from phantom.stereo import Screen
-    from phantom.tracing import Intervals, intervals, materials_at, path_lengths
+    from phantom.tracing import (
+        FirstHits,
+        Intervals,
+        first_hits,
+        intervals,
+        materials_at,
+        path_lengths,
+    )
+    from phantom.visible import (
+        Camera,
+        CameraPreset,
+        DirectionalLight,
+        Lighting,
+        Picture,
+        PointLight,
+        Tone,
+        preset_camera,
+        render,
+        render_pair,
+    )
 
     __version__: str
 
@@ -49,34 +68,47 @@ __all__ = [
     "Acquisition",
     "Beam",
     "Blur",
+    "Camera",
+    "CameraPreset",
     "CancelledError",
     "Detector",
     "DetectorModel",
     "Digitizer",
+    "DirectionalLight",
+    "FirstHits",
     "FocalSpot",
     "Grid",
     "Intervals",
     "InvalidDocumentError",
     "InvalidInputError",
+    "Lighting",
     "NoiseKey",
     "Phantom",
     "PhantomError",
+    "Picture",
+    "PointLight",
     "Presentation",
     "Problem",
     "Radiograph",
     "Scatter",
     "Screen",
     "StereoPair",
+    "Tone",
     "UnknownPhantomError",
     "View",
     "__version__",
+    "datasets",
+    "first_hits",
     "intervals",
     "library",
     "load",
     "materials_at",
     "path_lengths",
+    "preset_camera",
     "preset_view",
     "radiograph",
+    "render",
+    "render_pair",
     "stereo_pair",
 ]
 
@@ -111,15 +143,34 @@ _HOMES = {
     ),
     "phantom.scene": ("Phantom", "load"),
     "phantom.stereo": ("Screen",),
-    "phantom.tracing": ("Intervals", "intervals", "materials_at", "path_lengths"),
+    "phantom.tracing": (
+        "FirstHits",
+        "Intervals",
+        "first_hits",
+        "intervals",
+        "materials_at",
+        "path_lengths",
+    ),
+    "phantom.visible": (
+        "Camera",
+        "CameraPreset",
+        "DirectionalLight",
+        "Lighting",
+        "Picture",
+        "PointLight",
+        "Tone",
+        "preset_camera",
+        "render",
+    "render_pair",
+    ),
 }
 _HOME = {name: home for home, found in _HOMES.items() for name in found}
 
 
 def __getattr__(name: str) -> object:
     """Load a public name when it is first asked for (PEP 562)."""
-    if name == "library":
-        return import_module("phantom.library")
+    if name in ("datasets", "library"):
+        return import_module(f"phantom.{name}")
     if name == "__version__":
         from importlib.metadata import version
 

@@ -43,8 +43,7 @@ def routes(service: Service) -> APIRouter:
 
     @router.get("", summary="The library")
     def phantoms() -> list[PhantomTitle]:
-        entries = map(library.entry, library.names())
-        return [PhantomTitle(name=e.name, title=e.title, summary=e.summary) for e in entries]
+        return [PhantomTitle(**line._asdict()) for line in library.catalogue()]
 
     @router.get("/{name}", summary="One phantom and the JSON schema of its parameters")
     def phantom(name: str) -> PhantomDescription:

@@ -15,13 +15,13 @@ def list_phantoms(as_json: AsJson = False) -> None:
     with reporting(as_json=as_json):
         from phantom import library
 
-        entries = [library.entry(name) for name in library.names()]
+        lines = library.catalogue()
         if as_json:
-            answer([{"name": e.name, "title": e.title, "summary": e.summary} for e in entries])
+            answer([line._asdict() for line in lines])
             return
-        width = max((len(e.name) for e in entries), default=0)
-        for entry in entries:
-            answer(f"{entry.name:{width}}  {entry.title}")
+        width = max((len(line.name) for line in lines), default=0)
+        for line in lines:
+            answer(f"{line.name:{width}}  {line.title}")
 
 
 def show(

@@ -20,7 +20,7 @@ class Place(NamedTuple):
 
     Attributes
     ----------
-    index
+    number
         Of the image in the set.
     person, case, view
         Of the person in the set, the case of this person, the view of this case.
@@ -31,7 +31,7 @@ class Place(NamedTuple):
         digits that tell nothing where the set is blind.
     """
 
-    index: int
+    number: int
     person: int
     case: int
     view: int

@@ -65,13 +65,18 @@ def encode(
         An unknown format, or a quantity it cannot hold (``/quantity``).
     """
     chosen = format_named(format) if isinstance(format, str) else format
-    if quantity not in chosen.quantities:
-        held = ", ".join(chosen.quantities)
-        message = f"found {quantity!r}, but {chosen.name} holds one of {held}"
-        raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
+    check_held(chosen, quantity)
     layers, file = chosen.take(picture, Wanted(quantity, presentation, blind))
     content = Content(layers, {"format": chosen.name, **file}, picture.metadata(), blind)
     return Encoded(chosen.write(content), chosen.media_type, content.beside)
+
+
+def check_held(format: Format, quantity: str) -> None:
+    """Refuse a format that cannot hold the quantity (``/quantity``)."""
+    if quantity not in format.quantities:
+        held = ", ".join(format.quantities)
+        message = f"found {quantity!r}, but {format.name} holds one of {held}"
+        raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
 
 
 def save(

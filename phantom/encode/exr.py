@@ -1,4 +1,4 @@
-"""OpenEXR: every quantity as a named layer, in single precision."""
+"""OpenEXR: every quantity as a named layer, in single precision; one view or several."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.encode.attributes import METADATA_KEY, attributes
-from phantom.encode.openimageio import write
+from phantom.encode.openimageio import Part, write_parts
 
 LONGEST_NAME_BYTES = 255
 """Of a channel (The OpenEXR file layout, "Predefined attributes": long names)."""
@@ -20,9 +20,32 @@ def exr(layers: Mapping[str, NDArray[Any]], metadata: Mapping[str, Any]) -> byte
 
     The attribute ``phantom:metadata`` is the whole metadata as JSON. ZIP compression, no loss.
     """
+    return write_parts([_part(layers, metadata)], "exr")
+
+
+def exr_views(
+    views: Mapping[str, Mapping[str, NDArray[Any]]], metadata: Mapping[str, Any]
+) -> bytes:
+    """Return an OpenEXR file of several views, each with the same layers under their names.
+
+    Each view is a part of its own, whose attributes ``view`` and ``name`` are the view's name
+    (OpenEXR 2, multi-part files); the first part has the metadata.
+    """
+    parts = [
+        _part(layers, {} if index else metadata, {"view": view, "oiio:subimagename": view})
+        for index, (view, layers) in enumerate(views.items())
+    ]
+    return write_parts(parts, "exr")
+
+
+def _part(
+    layers: Mapping[str, NDArray[Any]],
+    metadata: Mapping[str, Any],
+    more: Mapping[str, str] | None = None,
+) -> Part:
     pixels = np.stack([layer.astype(np.float32) for layer in layers.values()], axis=-1)
-    told = {"compression": "zip", **attributes(metadata, METADATA_KEY)}
-    return write(pixels, "exr", told, tuple(layers))
+    told = {"compression": "zip", **(more or {}), **attributes(metadata, METADATA_KEY)}
+    return Part(pixels, told, tuple(layers))
 
 
 def layer_names(prefix: str, names: Iterable[str]) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.encode.attributes import json_text
-from phantom.encode.openimageio import write
+from phantom.encode.openimageio import channelled, write
 
 QUALITY = 95
 """Of 100, as the Independent JPEG Group counts it."""
@@ -22,14 +22,19 @@ _START, _COMMENT = b"\xff\xd8", b"\xff\xfe"
 
 
 def jpeg(grey: NDArray[Any], metadata: Mapping[str, Any]) -> bytes:
-    """Return a JPEG of (rows, columns) grey levels; of 16 bits the upper 8 are kept, rounded.
+    """Return a JPEG of (rows, columns) grey levels, or (rows, columns, 3).
+
+    Of 16 bits the upper 8 are kept, rounded.
 
     The comment is the whole metadata as JSON in ASCII, or, where that is too long for one, a word
     on where to find it. It is put in here: OpenImageIO's writer ends the process over a long one.
     """
     if grey.dtype == np.uint16:
         grey = ((grey.astype(np.uint32) + 128) // 257).astype(np.uint8)
-    data = write(grey[:, :, None], "jpg", {"compression": f"jpeg:{QUALITY}"})
+    told = {"compression": f"jpeg:{QUALITY}"}
+    if grey.ndim == 3:
+        told["jpeg:subsampling"] = "4:4:4"  # colours as sharp as brightness
+    data = write(channelled(grey), "jpg", told)
     if not metadata:
         return data
     comment = json_text(metadata).encode("ascii")

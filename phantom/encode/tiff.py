@@ -9,14 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.encode.attributes import attributes
-from phantom.encode.openimageio import write
+from phantom.encode.openimageio import channelled, write
 
 # The floating-point predictor would make files a third smaller; several readers do not know it.
 _NO_PREDICTOR = 1
 
 
 def tiff(values: NDArray[Any], metadata: Mapping[str, Any]) -> bytes:
-    """Return a TIFF of (rows, columns) values: uint8 or uint16 as they are, all else as float32.
+    """Return a TIFF of (rows, columns) values, or (rows, columns, 3) colours.
+
+    They are uint8 or uint16, as they are, and all else as float32.
 
     Deflate compression. ``ImageDescription`` is the whole metadata as JSON in ASCII: OpenImageIO
     drops any other field of our own.
@@ -25,4 +27,4 @@ def tiff(values: NDArray[Any], metadata: Mapping[str, Any]) -> bytes:
     if values.dtype.kind == "f":
         values = values.astype(np.float32)
         told["tiff:predictor"] = _NO_PREDICTOR
-    return write(values[:, :, None], "tif", told)
+    return write(channelled(values), "tif", told)

@@ -6,7 +6,7 @@ names an `Entry`. The engine knows no phantom itself.
 
 from phantom.library.entries import Abnormality, Entry, Technique
 from phantom.library.people import Person, PersonParameters, Population, mean_person
-from phantom.library.registry import GROUP, build, document, entry, names, prepare
+from phantom.library.registry import GROUP, build, catalogue, document, entry, names, prepare
 
 __all__ = [
     "GROUP",
@@ -17,6 +17,7 @@ __all__ = [
     "Population",
     "Technique",
     "build",
+    "catalogue",
     "document",
     "entry",
     "mean_person",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from phantom.document import Document, validate_model
 from phantom.errors import (
@@ -17,6 +17,7 @@ from phantom.errors import (
     prefixed,
 )
 from phantom.library.entries import Abnormality, Entry
+from phantom.library.folders import entry_of, files
 
 if TYPE_CHECKING:
     from phantom.scene import Phantom
@@ -30,19 +31,23 @@ def _entry_points() -> dict[str, EntryPoint]:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of every installed phantom, in alphabetical order, loading none."""
-    return tuple(_entry_points())
+    """Return the names of all phantoms, installed or in folders, in order, loading none."""
+    return tuple(sorted({*_entry_points(), *files()}))
 
 
 def entry(name: str) -> Entry[Any]:
-    """Return the library's entry of that name.
+    """Return the library's entry of that name; an installed phantom goes before a file.
 
     Raises
     ------
     UnknownPhantomError
         There is none; the problem, at ``/name``, lists the names there are.
+    InvalidInputError
+        It is a file, and no document.
     """
     point = _entry_points().get(name)
+    if point is None and (path := files().get(name)) is not None:
+        return entry_of(name, path)
     if point is None:
         known = ", ".join(names())
         message = f"found {name!r}, expected one of the library's phantoms: {known}"
@@ -51,6 +56,30 @@ def entry(name: str) -> Entry[Any]:
     if not isinstance(loaded, Entry):
         raise TypeError(f"entry point {point.value!r} is not a phantom.library.Entry")
     return loaded
+
+
+class Line(NamedTuple):
+    """One phantom in a list."""
+
+    name: str
+    title: str
+    summary: str
+
+
+def catalogue() -> tuple[Line, ...]:
+    """Return every phantom's name, title and summary; of a file that is no document, what is wrong.
+
+    Loads all of them.
+    """
+    lines = []
+    for name in names():
+        try:
+            known = entry(name)
+        except InvalidInputError as error:
+            lines.append(Line(name, f"(no document: {error.problems[0]})", str(error)))
+        else:
+            lines.append(Line(name, known.title, known.summary))
+    return tuple(lines)
 
 
 def document(

@@ -23,6 +23,7 @@ class Shot:
 
     region: str | None = "knee"
     laterality: str | None = "left"
+    codes: dict[str, Any] = field(default_factory=dict)
     view: dict[str, Any] = field(
         default_factory=lambda: {
             "source": SOURCE,
@@ -71,7 +72,11 @@ class Shot:
                 "title": "",
                 "document_sha256": "5ec2e7" * 10,
                 "material_names": list(NAMES),
-                "anatomy": {"region": self.region, "laterality": self.laterality, "codes": {}},
+                "anatomy": {
+                    "region": self.region,
+                    "laterality": self.laterality,
+                    "codes": self.codes,
+                },
             },
             "units": {"line_integral": "1", "transmission": "1", "signal": "1"},
             "view": self.view,
@@ -123,8 +128,9 @@ def _read(data: bytes) -> Png:
         position += 12 + length
     assert chunks[-1] == (b"IEND", b"")
     width, height, bits, colour, *rest = struct.unpack(">IIBBBBB", chunks[0][1])
-    assert (colour, *rest) == (0, 0, 0, 0), "grey, deflate, adaptive filters, not interlaced"
-    step = bits // 8
+    assert rest == [0, 0, 0], "deflate, adaptive filters, not interlaced"
+    channels = {0: 1, 2: 3}[colour]  # grey, or red, green and blue
+    step = bits // 8 * channels
     raw = zlib.decompress(b"".join(body for kind, body in chunks if kind == b"IDAT"))
     assert len(raw) == height * (1 + width * step)
     above, lines = bytes(width * step), []
@@ -137,7 +143,8 @@ def _read(data: bytes) -> Png:
     pixels = np.frombuffer(b"".join(lines), dtype=">u2" if bits == 16 else np.uint8)
     pairs = (body.split(b"\0", 1) for kind, body in chunks if kind == b"tEXt")
     text = {key.decode("latin-1"): value.decode("latin-1") for key, value in pairs}
-    return Png(pixels.reshape(height, width), text, tuple(kind for kind, _ in chunks))
+    shape = (height, width) if channels == 1 else (height, width, channels)
+    return Png(pixels.reshape(shape), text, tuple(kind for kind, _ in chunks))
 
 
 @pytest.fixture

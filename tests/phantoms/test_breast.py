@@ -41,7 +41,7 @@ def test_the_mean_woman_has_the_published_thickness_and_skin(breast):
 @pytest.mark.parametrize("asked", [None, 0.05, 0.5])
 def test_the_gland_has_its_share_of_the_volume(asked):
     """Σ L dA is the volume; the mean woman's share is 0.19 (Yaffe 2009), SD about 0.1."""
-    solid = library.build("breast", glandular=asked, strands=0)
+    solid = library.build("breast", glandular=asked, strands=0, lobules=200)
     found = _down(solid, *_lattice(solid, 1.5))
     share = found["gland"].sum() / (found["gland"] + found["fat"]).sum()
     assert share == pytest.approx(0.19 if asked is None else asked, abs=0.015)
@@ -66,14 +66,14 @@ def test_a_left_breast_is_the_mirror_image_of_a_right_one(breast):
 
 
 def test_between_plates_turned_for_mlo_it_is_as_thick():
-    solid = library.build("breast", compression="mlo")
+    solid = library.build("breast", compression="mlo", thickness_mm=59, lobules=40, strands=0)
     way = np.array([-1.0, 0.0, -1.0]) / 2**0.5  # the beam of a right breast's mlo at 45 degrees
     start = np.array([0.0, -40.0, 0.0]) - 500.0 * way
     assert phantom.path_lengths(solid, [start], [way]).sum() == pytest.approx(59.0, abs=1e-6)
 
 
 def test_the_pectoral_muscle_is_seen_in_mlo_only(breast):
-    turned = library.build("breast", compression="mlo")
+    turned = library.build("breast", compression="mlo", lobules=40, strands=0)
     for solid, seen in ((breast, False), (turned, True)):
         view = phantom.preset_view(solid, "mlo", columns=64, rows=64)
         muscle = phantom.radiograph(solid, view).path_lengths[
@@ -85,30 +85,38 @@ def test_the_pectoral_muscle_is_seen_in_mlo_only(breast):
             assert rows.mean() < 32 < columns.mean()
 
 
-CLUSTER = {"type": "calcification_cluster", "number": 12, "seed": 3, "cluster_mm": 8}
+CLUSTER = {
+    "type": "calcification_cluster",
+    "number": 12,
+    "seed": 3,
+    "cluster_mm": 16,
+    "diameter_mm": 1.5,
+}
 
 
 @pytest.mark.parametrize(
     ("arrangement", "dimensions"), [("line", 1), ("sheet", 2), ("scattered", 3), ("shell", 3)]
 )
 def test_calcifications_are_arranged_as_asked(breast, arrangement, dimensions):
-    made = library.build("breast", [{**CLUSTER, "arrangement": arrangement}])
+    made = library.build(
+        "breast",
+        [{**CLUSTER, "diameter_mm": 0.5, "arrangement": arrangement}],
+        lobules=40,
+        strands=0,
+    )
     (finding,) = made.document.findings
     assert len(finding.leaves) == 12
-    view = phantom.preset_view(made, "cc", columns=16, rows=16)
-    # Entry and exit along two directions give each centre back.
     centers = np.array([_center(made, name) for name in finding.leaves]) - finding.center
     spread = np.linalg.svd(centers, compute_uv=False)
     assert int(np.count_nonzero(spread > 1e-6)) == dimensions
     radii = np.linalg.norm(centers, axis=1)
-    assert np.all(radii <= 4.0)
+    assert np.all(radii <= 8.0)
     if arrangement == "shell":
         np.testing.assert_allclose(radii, radii[0], atol=1e-6)
-    assert view is not None
 
 
 def _center(solid, name):
-    """Return a sphere's centre from where a pencil of rays from two sides meets it."""
+    """Return a sphere's centre, half-way between where rays along x, y and z enter and leave it."""
     leaf = next(s for s in solid.document.solid.solids if getattr(s, "name", None) == name)
     ends = []
     for axis in range(3):
@@ -135,7 +143,10 @@ def test_a_lesion_changes_nothing_beside_itself(breast, lesion):
 
 def test_a_mass_has_its_diameter_where_its_finding_says():
     made = library.build(
-        "breast", [{"type": "mass", "diameter_mm": 9, "spicules": 0, "offset_mm": [3, 4, -5]}]
+        "breast",
+        [{"type": "mass", "diameter_mm": 9, "spicules": 0, "offset_mm": [3, 4, -5]}],
+        lobules=40,
+        strands=0,
     )
     (finding,) = made.document.findings
     x, y, _ = finding.center
@@ -166,7 +177,8 @@ def test_any_woman_gives_a_sound_breast_always_the_same():
     for index in range(12):
         drawn = [entry.of_person(women.draw(g), g) for g in (_generator(index), _generator(index))]
         assert drawn[0] == drawn[1]
-        assert library.prepare("breast", drawn[0].model_dump()).document.findings == ()
+        given = {**drawn[0].model_dump(), "lobules": 60, "strands": 9}
+        assert library.prepare("breast", given).document.parameters["seed"] == drawn[0].seed
 
 
 def test_a_man_is_refused():

@@ -20,6 +20,8 @@ class Facts:
     ----------
     beam
         Unit vector of the central ray, from the source to the detector's centre; world axes LPS.
+    named_beam
+        The one that the view has its name by: of a stereo pair that between the eyes.
     right, down
         Unit vectors along the picture's rows and columns.
     pitch_mm
@@ -28,8 +30,9 @@ class Facts:
         From the source to the detector's centre; None for a parallel beam.
     magnification
         Of the isocentre; None where it is not known.
-    region, laterality
-        The body part, and ``R``, ``L`` or None.
+    region, region_code, laterality
+        The body part, its code (value, scheme, meaning) where the document gives one, and ``R``,
+        ``L`` or None.
     name, document_sha256
         Of the phantom.
     software, version
@@ -40,12 +43,14 @@ class Facts:
     """
 
     beam: Vector
+    named_beam: Vector
     right: Vector
     down: Vector
     pitch_mm: tuple[float, float]
     source_detector_mm: float | None
     magnification: float | None
     region: str | None
+    region_code: tuple[str, str, str] | None
     laterality: str | None
     name: str
     document_sha256: str
@@ -59,30 +64,31 @@ class Facts:
     @property
     def is_mammogram(self) -> bool:
         """True for a breast seen from overhead or from the side, as a mammography unit does."""
-        return self.region == "breast" and abs(self.beam[1]) < 1e-3 and self.beam[2] < 1e-3
+        return (
+            self.region == "breast" and abs(self.named_beam[1]) < 1e-3 and self.named_beam[2] < 1e-3
+        )
 
 
 def facts(metadata: Mapping[str, Any]) -> Facts:
     """Return what the metadata of a radiograph says of it."""
     view, phantom, beam = metadata["view"], metadata["phantom"], metadata["beam"]
     detector = view["detector"]
-    source, distance = view["source"], None
-    if source is None:
-        ray = np.asarray(view["direction"], dtype=np.float64)
-    else:
-        ray = np.subtract(detector["center"], source)
-        distance = float(np.linalg.norm(ray))
+    ray = _central_ray(view)
+    distance = None if view["source"] is None else float(np.linalg.norm(ray))
+    middle = metadata.get("stereo", {}).get("view", view)
     anatomy = phantom.get("anatomy") or {}
     side = str(anatomy.get("laterality") or "").lower()
     pitch_x, pitch_y = metadata["pitch_mm"]
     return Facts(
         beam=_unit(ray),
+        named_beam=_unit(_central_ray(middle)),
         right=_unit(detector["right"]),
         down=_unit(detector["down"]),
         pitch_mm=(float(pitch_x), float(pitch_y)),
         source_detector_mm=distance,
         magnification=metadata.get("magnification"),
         region=_lower(anatomy.get("region")),
+        region_code=_code((anatomy.get("codes") or {}).get("AnatomicRegionSequence")),
         laterality={"right": "R", "r": "R", "left": "L", "l": "L"}.get(side),
         name=str(phantom["name"]),
         document_sha256=phantom["document_sha256"],
@@ -93,6 +99,17 @@ def facts(metadata: Mapping[str, Any]) -> Facts:
         filtration_mm=beam.get("filtration_mm") or {},
         mas=(metadata.get("acquisition") or {}).get("mas"),
     )
+
+
+def _code(told: Mapping[str, str] | None) -> tuple[str, str, str] | None:
+    return None if told is None else (told["value"], told["scheme"], told["meaning"])
+
+
+def _central_ray(view: Mapping[str, Any]) -> NDArray[np.float64]:
+    """Return the way from the source to the detector's centre, or along a parallel beam."""
+    if view["source"] is None:
+        return np.asarray(view["direction"], dtype=np.float64)
+    return np.asarray(np.subtract(view["detector"]["center"], view["source"]))
 
 
 def _lower(word: str | None) -> str | None:

@@ -39,20 +39,23 @@ def identity(content: Content, facts: Facts, form: str) -> Identity:
     pixels = hashlib.sha256(content.only.tobytes()).hexdigest()
     made = [facts.software, facts.version, f"pydicom {version('pydicom')}"]
     if content.blind:
-        person, view, image = pixels, "", ""
+        # The images of a pair are of one person, and two even where their pixels are the same.
+        pair = content.metadata.get("stereo", {})
+        person, view, image = pair.get("pixels_sha256", pixels), "", pair.get("eye", "")
     else:
         person = facts.document_sha256
         view = json_text({"view": content.metadata["view"], "beam": content.metadata["beam"]})
         image = json_text(content.told)
     return Identity(
         patient_id=f"PHX-{hashlib.sha256(person.encode()).hexdigest()[:12].upper()}",
-        study_uid=_uid(["study", *made, person]),
-        series_uid=_uid(["series", *made, person, form, view]),
-        image_uid=_uid(["image", *made, person, form, view, image, pixels]),
+        study_uid=uid(["study", *made, person]),
+        series_uid=uid(["series", *made, person, form, view]),
+        image_uid=uid(["image", *made, person, form, view, image, pixels]),
     )
 
 
-def _uid(sources: Sequence[str]) -> str:
+def uid(sources: Sequence[str]) -> str:
+    """Return the unique identifier that these texts always have."""
     from pydicom.uid import generate_uid
 
     return str(generate_uid(entropy_srcs=list(sources)))

@@ -40,7 +40,11 @@ def positioner_angles_deg(facts: Facts) -> tuple[float, float]:
     0 is before the chest; the primary angle rises toward the patient's left, up to 180, and the
     secondary toward the head.
     """
-    x, y, z = facts.beam
+    return _body_angles_deg(facts.beam)
+
+
+def _body_angles_deg(beam: Vector) -> tuple[float, float]:
+    x, y, z = beam
     secondary = math.degrees(math.asin(max(-1.0, min(1.0, z))))
     if math.hypot(x, y) < 1e-9:
         return 0.0, secondary
@@ -54,7 +58,11 @@ def mammogram_angle_deg(facts: Facts) -> float:
     PS3.3 C.8.11.7, Positioner Primary Angle: the movement of the source from right to vertical is
     positive.
     """
-    x, _, z = facts.beam
+    return _breast_angle_deg(facts.beam)
+
+
+def _breast_angle_deg(beam: Vector) -> float:
+    x, _, z = beam
     return math.degrees(math.atan2(-x, -z)) + 0.0
 
 
@@ -69,7 +77,7 @@ def mammogram_laterality(facts: Facts) -> str:
 def mammogram_view(facts: Facts) -> str:
     """Return the name of the view in CID 4014 (pydicom's spelling)."""
     outward = 1.0 if mammogram_laterality(facts) == "L" else -1.0
-    angle = -outward * mammogram_angle_deg(facts)  # of the detector, toward the outer side
+    angle = -outward * _breast_angle_deg(facts.named_beam)  # of the detector, toward the outer side
     if abs(angle) <= MAMMOGRAM_TILT_DEG:
         return "CranioCaudal"
     if abs(abs(angle) - 90) <= SAME_ANGLE_DEG:
@@ -79,7 +87,7 @@ def mammogram_view(facts: Facts) -> str:
 
 def projection_view(facts: Facts) -> str | None:
     """Return the name of the view in CID 4010 (pydicom's spelling); None for a pose without one."""
-    primary, secondary = positioner_angles_deg(facts)
+    primary, secondary = _body_angles_deg(facts.named_beam)
     if abs(secondary) > SAME_ANGLE_DEG:
         return None
     if abs(primary) <= SAME_ANGLE_DEG:

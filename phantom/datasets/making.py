@@ -1,0 +1,270 @@
+"""Making an image: from its number to the files that are kept of it, and what is said of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from phantom import library
+from phantom.datasets.contact import shown, thumbnail
+from phantom.datasets.design import Design, DrawnPhantom, view_name
+from phantom.datasets.names import file_name
+from phantom.datasets.places import Place, place
+from phantom.datasets.sampling import Case, Subject, case, exposure, request
+from phantom.document import validate_model
+from phantom.encode import archive, encode, npy, png, truth_files
+from phantom.encode.coco import coco
+from phantom.encode.coding import Coding, coding
+from phantom.encode.content import Content
+from phantom.imaging import Radiograph, Truth, document_sha256
+from phantom.requests.radiograph import RadiographPlan, RadiographRequest, plan_of
+
+if TYPE_CHECKING:
+    from phantom.scene import Phantom
+
+LINEAR_CODES: Final = 32_768
+"""Codes of the open field in a linear picture of the signal: noise may go to twice of it."""
+
+OF_MASKS: Final = ("masks", "boxes")
+"""Kinds of ground truth that masks, COCO and the places of findings come from."""
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """What is kept of an image.
+
+    Attributes
+    ----------
+    place
+        Where it stands.
+    files
+        Content by ending, such as ``png`` or ``mask.png``.
+    row
+        What is said of it, as plain JSON values; never null, so that tables have one type a column.
+    annotations
+        Its leaves, as in COCO, each with its ``name`` and ``material`` in place of a category.
+    thumbnail
+        Of those that the contact sheet shows.
+    """
+
+    place: Place
+    files: Mapping[str, bytes]
+    row: Mapping[str, Any]
+    annotations: tuple[Mapping[str, Any], ...] = ()
+    thumbnail: str | None = None
+
+
+@dataclass(slots=True)
+class Maker:
+    """Makes the images of one design, one at a time; the last case is kept for its next view.
+
+    Parameters
+    ----------
+    design
+        Whose.
+    threads
+        To trace with; None for one a processor. The images do not depend on it.
+    """
+
+    design: Design
+    threads: int | None = None
+    _own: Phantom | None = field(default=None, init=False)
+    _last: tuple[tuple[int, int], Case] | None = field(default=None, init=False)
+
+    def make(self, index: int) -> Made:
+        """Return image ``index``.
+
+        Raises
+        ------
+        InvalidInputError
+            Nothing that was drawn for it fits.
+        """
+        at = place(self.design, index)
+        of = self.case(at)
+        planned = self.plan(at, of)
+        made = planned.render(workers=self.threads)
+        truth = planned.tell(workers=self.threads) if planned.truth else None
+        twin = self.twin(planned, of)
+        return self.kept(at, of, planned, made, truth, twin)
+
+    def case(self, at: Place) -> Case:
+        """Return the case of an image."""
+        number = (at.person, at.case)
+        if self._last is None or self._last[0] != number:
+            self._last = None
+            self._last = number, case(self.design, at, self._prepared)
+        return self._last[1]
+
+    def _prepared(self, subject: Subject) -> Phantom:
+        asked = self.design.phantom
+        if isinstance(asked, DrawnPhantom):
+            return library.prepare(asked.name, subject.parameters, subject.abnormalities)
+        if self._own is None:
+            from phantom.scene import load
+
+            self._own = load(asked.document)
+        return self._own
+
+    def plan(self, at: Place, of: Case) -> RadiographPlan:
+        """Return the radiograph that an image is, ready to be traced."""
+        design = self.design
+        tree = request(design, at, exposure(design, at))
+        asked = design.phantom
+        subject: dict[str, Any] = {"document": {}}
+        if isinstance(asked, DrawnPhantom):
+            subject = {"name": asked.name}
+        kept = design.outputs
+        if kept.masks or kept.coco or design.abnormalities:
+            tree["truth"] = [*{*tree["truth"], *OF_MASKS}]
+        return plan_of(validate_model(RadiographRequest, {**tree, "phantom": subject}), of.phantom)
+
+    def twin(self, planned: RadiographPlan, of: Case) -> Radiograph | None:
+        """Return the same picture, of the same noise, with nothing wrong; None without a twin."""
+        if of.twin is None:
+            return None
+        return replace(planned, phantom=of.twin).render(workers=self.threads)
+
+    def kept(
+        self,
+        at: Place,
+        of: Case,
+        planned: RadiographPlan,
+        made: Radiograph,
+        truth: Truth | None,
+        twin: Radiograph | None,
+    ) -> Made:
+        """Return what is kept of an image, encoded."""
+        design, kept = self.design, self.design.outputs
+        files = self._pictures(planned, made, "")
+        if twin is not None:
+            files |= self._pictures(planned, twin, "twin.")
+        annotations: tuple[Mapping[str, Any], ...] = ()
+        if truth is not None:
+            if kept.masks:
+                files["mask.png"] = png(mask(truth, of_findings=bool(design.abnormalities)), {})
+            if design.truth:
+                told = replace(truth, kinds=tuple(k for k in truth.kinds if k in design.truth))
+                name = file_name(design, at, "png")
+                files["truth.zip"] = archive(truth_files(told, name))
+            if kept.coco:
+                annotations = annotated(truth)
+        document = of.phantom.document
+        if kept.documents and at.view == 0:
+            tree = document.model_dump(mode="json", exclude_none=True)
+            files["document.json"] = f"{text(tree)}\n".encode()
+        row = self._row(at, of, planned, made, truth)
+        small = thumbnail(made, design.quantity) if at.number in shown(design) else None
+        return Made(at, files, row, annotations, small)
+
+    def _pictures(self, planned: RadiographPlan, made: Radiograph, prefix: str) -> dict[str, bytes]:
+        """Return the picture, and the codes beside it where they are asked for."""
+        design, quantity = self.design, self.design.quantity
+        chosen = linear(made, quantity)
+        files: dict[str, bytes] = {}
+        codes = chosen.codes(made.quantity(quantity))
+        if design.outputs.form == "linear":
+            said = {"format": "png", "holds": "codes", **chosen.told()}
+            content = Content({quantity: codes}, said, made.metadata(), design.blind)
+            files[f"{prefix}png"] = png(content.only, content.told)
+        else:
+            shown_as = planned.presentation
+            files[f"{prefix}png"] = encode(made, quantity, shown_as, "png", blind=design.blind).data
+        if design.outputs.codes:
+            files[f"{prefix}u16.npy"] = npy(codes)
+        return files
+
+    def _row(
+        self,
+        at: Place,
+        of: Case,
+        planned: RadiographPlan,
+        made: Radiograph,
+        truth: Truth | None,
+    ) -> dict[str, Any]:
+        design = self.design
+        recommended = "ap"
+        if isinstance(design.phantom, DrawnPhantom):
+            recommended = library.entry(design.phantom.name).views[0]
+        row: dict[str, Any] = {
+            "index": at.number,
+            "key": at.key,
+            "split": at.split,
+            "person": at.person,
+            "case": at.case_number(design),
+            "view": view_name(design.views[at.view], recommended),
+        }
+        if of.subject.person is not None:
+            row |= of.subject.person.model_dump(mode="json")
+        wrong = of.subject.abnormalities
+        row["label"] = int(bool(wrong))
+        for asked in design.abnormalities:
+            row[f"has_{asked.type}"] = int(any(a["type"] == asked.type for a in wrong))
+        row |= exposure(design, at)
+        row["parameters"] = text(of.phantom.document.parameters)
+        row["abnormalities"] = text(wrong)
+        row["findings"] = text(located(of.phantom, truth))
+        row["columns"], row["rows"] = made.view.detector.columns, made.view.detector.rows
+        row["pitch_mm"] = made.view.detector.pitch_xy_mm[0]
+        row["open_field"] = made.open_field
+        row["codes_per_unit"] = linear(made, design.quantity).codes_per_unit
+        row["document_sha256"] = document_sha256(of.phantom.document)
+        return row
+
+
+def linear(made: Radiograph, quantity: str) -> Coding:
+    """Return the coding of a linear picture, the same for every image of the same open field."""
+    if quantity == "signal" and made.signal_unit != "codes":
+        return Coding(quantity, LINEAR_CODES / made.open_field)
+    unit = made.signal_unit if quantity == "signal" else "1"
+    return coding(quantity, np.zeros(0), unit)
+
+
+def mask(truth: Truth, *, of_findings: bool) -> NDArray[np.uint8]:
+    """Return 255 where something of the findings, or else of any named leaf, is seen."""
+    names = {name for _, leaves in truth.findings for name in leaves}
+    found = np.zeros(truth.size[::-1], dtype=np.bool_)
+    for leaf in truth.leaves:
+        if leaf.box is not None and (not of_findings or leaf.name in names):
+            found |= leaf.mask
+    return found.astype(np.uint8) * np.uint8(255)
+
+
+def annotated(truth: Truth) -> tuple[Mapping[str, Any], ...]:
+    """Return the leaves that are seen, as annotations of COCO without their numbers."""
+    tree = coco(truth.leaves, truth.size, "", truth.centroids_px)
+    names = {c["id"]: (c["name"], c["supercategory"]) for c in tree["categories"]}
+    finding = {leaf: name for name, leaves in truth.findings for leaf in leaves}
+    found = []
+    for annotation in tree["annotations"]:
+        name, material = names[annotation["category_id"]]
+        told = {k: v for k, v in annotation.items() if not k.endswith("id")}
+        own = {"finding": finding[name]} if name in finding else {}
+        found.append({"name": name, "material": material, **told, **own})
+    return tuple(found)
+
+
+def located(phantom: Phantom, truth: Truth | None) -> list[dict[str, Any]]:
+    """Return what a reader should find, with its place in the picture where that is known."""
+    found = []
+    for finding in phantom.document.findings:
+        told = finding.model_dump(mode="json", exclude_none=True)
+        boxes = []
+        if truth is not None:
+            leaves = [leaf for leaf in truth.leaves if leaf.name in finding.leaves]
+            boxes = [leaf.box for leaf in leaves if leaf.box is not None]
+        if boxes:
+            left, top = min(b.first_column for b in boxes), min(b.first_row for b in boxes)
+            right, bottom = max(b.last_column for b in boxes), max(b.last_row for b in boxes)
+            told["bbox"] = [left, top, right - left + 1, bottom - top + 1]
+        found.append(told)
+    return found
+
+
+def text(tree: object) -> str:
+    """Return JSON in ASCII, without spaces."""
+    return json.dumps(tree, ensure_ascii=True, allow_nan=False, separators=(",", ":"))

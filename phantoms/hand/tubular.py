@@ -1,0 +1,209 @@
+"""A tubular bone of the hand: cortex, spongiosa and marrow, with a head and a hollow base."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from phantom.document import Cut, Difference, Ellipsoid, Point, Solid, Sphere
+from phantoms.hand.sizes import DISTAL, METACARPAL, Width, head_length_mm, stations
+from phantoms.parts import Station, layered, swept, union, within
+
+CORTEX, SPONGIOSA, MARROW = "cortical bone", "spongiosa", "marrow"
+PLATE_MM: Final = 0.7
+"""Thickness of the bone under a joint's cartilage; an estimate."""
+_THIN_MM: Final = 0.45
+"""Thickness of the cortex at the ends of a bone; an estimate."""
+_BOW: Final = {METACARPAL: 0.028, DISTAL: 0.0}
+
+
+class Knob(NamedTuple):
+    """An ellipsoid of a joint: a head or one of its condyles, in the frame of its bone."""
+
+    name: str
+    center: Point
+    semi_axes: Point
+
+    def grown(self, by_mm: float) -> Knob:
+        """Return the ellipsoid with that much more on every semi-axis."""
+        a, b, c = self.semi_axes
+        return self._replace(semi_axes=(a + by_mm, b + by_mm, c + by_mm))
+
+    def reaches(self, cut: Cut) -> bool:
+        """Whether something is left of it where a plane takes the rest away."""
+        away = np.array(cut.normal) / np.linalg.norm(cut.normal)
+        depth = float(away @ (np.array(self.center) - cut.point))
+        return depth - float(np.linalg.norm(away * self.semi_axes)) < -0.01
+
+    def solid(self, name: str, material: str | None, cuts: Sequence[Cut] = ()) -> Ellipsoid:
+        """Return the leaf."""
+        return Ellipsoid(
+            type="ellipsoid",
+            name=name,
+            material=material,
+            center=self.center,
+            semi_axes=self.semi_axes,
+            cuts=tuple(cuts),
+        )
+
+
+class Shape(NamedTuple):
+    """What a tubular bone is made of, in its own frame.
+
+    Attributes
+    ----------
+    kind, width, length_mm
+        As in :mod:`phantoms.hand.sizes`.
+    cortex_mm
+        Thickness of the cortex of the shaft.
+    hollows
+        What is taken out of the base: the head that it meets, grown by the joint space.
+    plate_mm
+        Thickness of the bone under the joints: of the base, and of the head.
+    """
+
+    kind: str
+    width: Width
+    length_mm: float
+    cortex_mm: float
+    hollows: tuple[Knob, ...] = ()
+    plate_mm: tuple[float, float] = (PLATE_MM, PLATE_MM)
+
+    @property
+    def outer(self) -> list[Station]:
+        """The sections of base and shaft."""
+        return stations(self.kind, self.width, self.length_mm, self.bow_mm)
+
+    @property
+    def bow_mm(self) -> float:
+        """How far the shaft bows to the back of the hand."""
+        return _BOW.get(self.kind, 0.02) * self.length_mm
+
+    @property
+    def knobs(self) -> tuple[Knob, ...]:
+        """The ellipsoids of its head; none of a distal phalanx."""
+        if self.kind == DISTAL:
+            return ()
+        reach = head_length_mm(self.kind, self.width)
+        z = self.length_mm - reach
+        half, deep = self.width.head / 2, self.width.head_depth / 2
+        if self.kind == METACARPAL:
+            return (Knob("head", (0.0, 0.0, z), (0.985 * half, deep, reach)),)
+        aside, wide = 0.36 * half, 0.64 * half
+        return (
+            Knob("radial condyle", (aside, 0.0, z), (wide, deep, reach)),
+            Knob("ulnar condyle", (-aside, 0.0, z), (wide, deep, reach)),
+        )
+
+    def socket(self, gap_mm: float) -> tuple[Knob, ...]:
+        """The hollows, in this bone's frame, that leave that joint space about its head."""
+        grown = [knob.grown(gap_mm) for knob in self.knobs]
+        if self.kind != METACARPAL:
+            return tuple(grown)
+        # A proximal phalanx's base is flatter than the head it rides on.
+        return tuple(
+            k._replace(semi_axes=(k.semi_axes[0] + 4.0, k.semi_axes[1] + 3.0, k.semi_axes[2]))
+            for k in grown
+        )
+
+    def walls(self, outer: Sequence[Station]) -> list[float]:
+        """Return the thickness of the cortex at each section."""
+        z = [station.at[2] / self.length_mm for station in outer]
+        ends = (0.05, 0.2, 0.36, 0.62, 0.78, 0.9)
+        if self.kind == DISTAL:
+            ends = (0.06, 0.25, 0.45, 0.6, 0.75, 0.88)
+        middle = 0.5 * (_THIN_MM + self.cortex_mm)
+        values = (_THIN_MM, middle, self.cortex_mm, self.cortex_mm, middle, _THIN_MM)
+        return [float(wall) for wall in np.interp(z, ends, values)]
+
+
+def bone(
+    shape: Shape,
+    *inside: Solid,
+    spurs: Sequence[Ellipsoid] = (),
+    eroded: Sequence[Sphere] = (),
+    cuts: Sequence[Cut] = (),
+) -> Solid:
+    """Return a bone in its own frame.
+
+    Parameters
+    ----------
+    shape
+        What it is made of.
+    inside
+        What replaces bone and marrow, such as a lesion.
+    spurs, eroded
+        Ellipsoids of cortex at the base, and what is taken out of it.
+    cuts
+        Planes that take a part of every leaf away.
+    """
+    outer = shape.outer
+
+    def kept(knob: Knob) -> bool:
+        return all(knob.reaches(cut) for cut in cuts)
+
+    spongy = within(outer, shape.walls(outer), closed=(True, shape.kind == DISTAL))
+    whole = union(
+        swept("cortex", outer, CORTEX, cuts=cuts),
+        *(knob.solid(knob.name, CORTEX, cuts) for knob in shape.knobs if kept(knob)),
+        *(spur.model_copy(update={"cuts": tuple(cuts)}) for spur in spurs if kept(_knob(spur))),
+    )
+    core = union(
+        swept("spongiosa", spongy, SPONGIOSA, cuts=cuts),
+        *(
+            knob.grown(-_under(shape)).solid(f"{knob.name} spongiosa", SPONGIOSA, cuts)
+            for knob in shape.knobs
+            if kept(knob.grown(-_under(shape)))
+        ),
+    )
+    plates = [knob.grown(shape.plate_mm[0]) for knob in shape.hollows]
+    canal = _canal(spongy, shape)
+    middle = Knob("marrow", (0.0, 0.0, (canal[0].at[2] + canal[-1].at[2]) / 2), _reach(canal))
+    made = layered(
+        _hollowed(whole, shape.hollows, "hollow"),
+        _hollowed(core, plates, "inner hollow"),
+        *([swept("marrow", canal, MARROW, cuts=cuts)] if kept(middle) else []),
+        *inside,
+    )
+    return Difference(type="difference", solids=(made, *eroded)) if eroded else made
+
+
+def _reach(rows: Sequence[Station]) -> Point:
+    """Return the semi-axes of an ellipsoid that lies in a canal, about its middle."""
+    middle = rows[len(rows) // 2]
+    return (0.5 * middle.x[1], 0.5 * middle.b[1], 0.98 * (rows[-1].at[2] - rows[0].at[2]) / 2)
+
+
+def _knob(spur: Ellipsoid) -> Knob:
+    return Knob(spur.name or "", spur.center, spur.semi_axes)
+
+
+def _under(shape: Shape) -> float:
+    return min(shape.plate_mm[1], 0.45 * min(min(knob.semi_axes) for knob in shape.knobs))
+
+
+def _canal(spongy: Sequence[Station], shape: Shape) -> list[Station]:
+    """Return the sections of the marrow canal: the inside of the shaft, closed at both ends."""
+    first, last = (0.1, 0.88) if shape.kind != DISTAL else (0.2, 0.74)
+    z = np.array([station.at[2] for station in spongy]) / shape.length_mm
+    y = np.array([station.at[1] for station in spongy])
+    wide = np.array([station.x[1] for station in spongy])
+    deep = np.array([station.b[1] for station in spongy])
+    places = np.linspace(first, last, 9)
+    made = []
+    for place in places:
+        share = abs(2 * (place - first) / (last - first) - 1)
+        taper = 0.95 * (1 - share**2.5) ** 0.8 + 0.02
+        x, b = taper * np.interp(place, z, wide), taper * np.interp(place, z, deep)
+        at = (0.0, float(np.interp(place, z, y)), float(place * shape.length_mm))
+        made.append(Station(at, (-float(x), float(x)), (-float(b), float(b))))
+    return made
+
+
+def _hollowed(solid: Solid, hollows: Sequence[Knob], name: str) -> Solid:
+    if not hollows:
+        return solid
+    taken = [hollow.solid(f"{name} {index}", None) for index, hollow in enumerate(hollows)]
+    return Difference(type="difference", solids=(solid, *taken))
