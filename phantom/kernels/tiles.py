@@ -13,7 +13,7 @@ from phantom.kernels.isolation import isolate
 from phantom.kernels.lanes import TILE_COLUMNS, TILE_ROWS, collect
 from phantom.kernels.roots import ERROR_MM
 from phantom.kernels.scratch import Scratch
-from phantom.kernels.slots import clear, cut, ellipsoids, other_quadrics, settle
+from phantom.kernels.slots import clear, cut, ellipsoids, let_go, other_quadrics, pair_up, settle
 from phantom.kernels.spans import combine
 
 Floats = NDArray[np.float64]
@@ -93,6 +93,7 @@ def cylinder_records(
             n = collect(held.lanes, knots, k - first, slabs, i0, i1, j0, j1)
             if n == 0:
                 continue
+            before = filled
             filled = isolate(
                 n,
                 i0,
@@ -111,8 +112,10 @@ def cylinder_records(
                 columns,
             )
             if filled < 0:
+                held.senses[:] = 0.0
                 return -1
-    return filled
+            filled = pair_up(before, filled, held)
+    return let_go(filled, held)
 
 
 @inner
