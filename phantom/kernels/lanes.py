@@ -21,7 +21,7 @@ TILE_ROWS, TILE_COLUMNS = 16, 128
 
 LANES = TILE_ROWS * TILE_COLUMNS
 
-HELD = 2 * LANES
+HELD = 4 * LANES
 """Intervals that may wait."""
 
 CHUNK = 512
