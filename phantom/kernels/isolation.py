@@ -168,7 +168,8 @@ def isolate(
                 filled += 1
         top = base + n
         while top > base:
-            n = min(top - base, CHUNK)
+            # The fuller the pile, the fewer are split at once: so it never runs over.
+            n = min(min(top - base, CHUNK), max(1, (HELD - top) // 8))
             top -= n
             T = S[top:]
             if roots + n > LANES:

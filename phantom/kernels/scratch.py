@@ -16,7 +16,7 @@ Ints = NDArray[np.int64]
 MOST = 62
 """Slots that pixels looked at together may meet: the bits of a mask."""
 
-_RECORDS = 64 * LANES
+_RECORDS = 128 * LANES
 
 
 class Scratch(NamedTuple):
