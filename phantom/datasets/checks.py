@@ -35,6 +35,7 @@ def check(design: Design, limits: Limits | None = None) -> RadiographPlan:
         Every problem found, with the path of its field in the design.
     """
     problems = [*_counts(design), *_extras(design)]
+    countable = not problems
     if isinstance(design.phantom, DrawnPhantom):
         try:
             problems += _of_library(design, design.phantom)
@@ -44,7 +45,8 @@ def check(design: Design, limits: Limits | None = None) -> RadiographPlan:
         fields = [name for name in ("abnormalities", "population") if getattr(design, name)]
         told = "found it with a document; expected it with a phantom of the library"
         problems += [Problem(f"/{name}", "no_effect", told) for name in fields]
-    problems += _words(design)
+    if countable:
+        problems += _words(design)
     if problems:
         raise InvalidInputError(arranged(problems))
     return _first(design, limits)
