@@ -40,7 +40,25 @@ if TYPE_CHECKING:
     )
     from phantom.scene import Phantom, load
     from phantom.stereo import Screen
-    from phantom.tracing import Intervals, intervals, materials_at, path_lengths
+    from phantom.tracing import (
+        FirstHits,
+        Intervals,
+        first_hits,
+        intervals,
+        materials_at,
+        path_lengths,
+    )
+    from phantom.visible import (
+        Camera,
+        CameraPreset,
+        DirectionalLight,
+        Lighting,
+        Picture,
+        PointLight,
+        Tone,
+        preset_camera,
+        render,
+    )
 
     __version__: str
 
@@ -49,35 +67,46 @@ __all__ = [
     "Acquisition",
     "Beam",
     "Blur",
+    "Camera",
+    "CameraPreset",
     "CancelledError",
     "Detector",
     "DetectorModel",
     "Digitizer",
+    "DirectionalLight",
+    "FirstHits",
     "FocalSpot",
     "Grid",
     "Intervals",
     "InvalidDocumentError",
     "InvalidInputError",
+    "Lighting",
     "NoiseKey",
     "Phantom",
     "PhantomError",
+    "Picture",
+    "PointLight",
     "Presentation",
     "Problem",
     "Radiograph",
     "Scatter",
     "Screen",
     "StereoPair",
+    "Tone",
     "UnknownPhantomError",
     "View",
     "__version__",
     "datasets",
+    "first_hits",
     "intervals",
     "library",
     "load",
     "materials_at",
     "path_lengths",
+    "preset_camera",
     "preset_view",
     "radiograph",
+    "render",
     "stereo_pair",
 ]
 
@@ -112,7 +141,25 @@ _HOMES = {
     ),
     "phantom.scene": ("Phantom", "load"),
     "phantom.stereo": ("Screen",),
-    "phantom.tracing": ("Intervals", "intervals", "materials_at", "path_lengths"),
+    "phantom.tracing": (
+        "FirstHits",
+        "Intervals",
+        "first_hits",
+        "intervals",
+        "materials_at",
+        "path_lengths",
+    ),
+    "phantom.visible": (
+        "Camera",
+        "CameraPreset",
+        "DirectionalLight",
+        "Lighting",
+        "Picture",
+        "PointLight",
+        "Tone",
+        "preset_camera",
+        "render",
+    ),
 }
 _HOME = {name: home for home, found in _HOMES.items() for name in found}
 

@@ -54,7 +54,7 @@ _TRABECULAR_LOSS: Final[dict[str, dict[Sex, float]]] = {
     "central": {"male": 0.46, "female": 0.55},
     "peripheral": {"male": 0.26, "female": 0.24},
 }
-_MINERAL_IN_SPONGIOSA: Final = 0.37
+MINERAL_IN_SPONGIOSA: Final = 0.37
 """Share of the attenuation of spongiosa at 60 keV, 0.281 / cm, that marrow alone has not."""
 
 
@@ -125,7 +125,7 @@ def spongiosa_density_g_cm3(
         return 1.0 - over_life * years / (_OLD_YEARS - _YOUNG_YEARS)
 
     mineral = left(person.age_years) / left(_MIDLIFE_YEARS) * (1.0 + 0.15 * trimmed(scatter))
-    return grown_g_cm3 * (1.0 + _MINERAL_IN_SPONGIOSA * (mineral - 1.0))
+    return grown_g_cm3 * (1.0 + MINERAL_IN_SPONGIOSA * (mineral - 1.0))
 
 
 def fat_mm(

@@ -113,7 +113,7 @@ async def _answer(
         return planned, form
 
     planned, wanted = await service.workshop.run(request, look)
-    headers = {"ETag": _entity_tag(planned, wanted), "Vary": "Accept"}
+    headers = {"ETag": entity_tag(planned.fingerprint(), wanted), "Vary": "Accept"}
     if request.method != "POST":
         scope = "public" if service.settings.api_key is None else "private"
         headers["Cache-Control"] = f"{scope}, max-age=86400, immutable"
@@ -142,8 +142,9 @@ class _HeadResponse(Response):
         del self.headers["content-length"]
 
 
-def _entity_tag(planned: RadiographPlan, wanted: str) -> str:
-    digest = hashlib.sha256(f"{planned.fingerprint()} {wanted}".encode()).hexdigest()
+def entity_tag(fingerprint: str, wanted: str) -> str:
+    """Return the strong entity tag of what a plan gives in a form (RFC 9110, section 8.8.3)."""
+    digest = hashlib.sha256(f"{fingerprint} {wanted}".encode()).hexdigest()
     return f'"{digest[:32]}"'
 
 

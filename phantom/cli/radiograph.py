@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from phantom.cli.console import Bar, answer, reporting, say
+from phantom.cli.exposure import EXPOSURE, worded
 from phantom.cli.options import Abnormalities, AsJson, Settings, json_text, subject
 
 if TYPE_CHECKING:
@@ -16,11 +18,7 @@ if TYPE_CHECKING:
     from phantom.requests.radiograph import RadiographPlan
 
 
-def _word(help_text: str, metavar: str, flag: str) -> Any:
-    """Return an option whose text means what it means in a query string."""
-    return typer.Option(flag, help=help_text, metavar=metavar)
-
-
+@worded(EXPOSURE)
 def make(
     target: Annotated[
         str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
@@ -34,102 +32,7 @@ def make(
             metavar="FILE",
         ),
     ] = None,
-    view: Annotated[
-        str | None, _word("Preset, or a source and detector in JSON.", "VIEW", "--view")
-    ] = None,
-    source_detector_mm: Annotated[
-        str | None, _word("Source to detector.", "MM", "--source-detector-mm")
-    ] = None,
-    source_object_mm: Annotated[
-        str | None, _word("Source to isocentre.", "MM", "--source-object-mm")
-    ] = None,
-    object_detector_mm: Annotated[
-        str | None, _word("Isocentre to detector.", "MM", "--object-detector-mm")
-    ] = None,
-    angle_deg: Annotated[str | None, _word("Of an oblique.", "DEG", "--angle-deg")] = None,
-    primary_angle_deg: Annotated[
-        str | None, _word("Of c_arm, to the left.", "DEG", "--primary-angle-deg")
-    ] = None,
-    secondary_angle_deg: Annotated[
-        str | None, _word("Of c_arm, to the head.", "DEG", "--secondary-angle-deg")
-    ] = None,
-    laterality: Annotated[
-        str | None, _word("Side of a limb or breast.", "left|right", "--laterality")
-    ] = None,
-    columns: Annotated[str | None, _word("Pixels in a row.", "N", "--columns")] = None,
-    rows: Annotated[str | None, _word("Pixels in a column.", "N", "--rows")] = None,
-    pitch_mm: Annotated[str | None, _word("Distance of pixel centres.", "MM", "--pitch-mm")] = None,
-    energy_kev: Annotated[str | None, _word("Photon energy.", "KEV", "--energy-kev")] = None,
-    kvp: Annotated[
-        str | None, _word("Tube voltage, in place of the photon energy.", "KV", "--kvp")
-    ] = None,
-    anode: Annotated[
-        str | None, _word("Of the tube.", "tungsten|molybdenum|rhodium", "--anode")
-    ] = None,
-    filtration: Annotated[
-        str | None, _word("Filters of the tube.", "MATERIAL=MM,…|none", "--filtration")
-    ] = None,
-    acquisition: Annotated[
-        str | None,
-        _word(
-            "Dose, focal spot, scatter, detector; none is ideal.", "FILE|JSON|none", "--acquisition"
-        ),
-    ] = None,
-    dose_ugy: Annotated[
-        str | None, _word("Air kerma at the detector in the open field.", "UGY", "--dose-ugy")
-    ] = None,
-    mas: Annotated[str | None, _word("Tube load, in place of the dose.", "MAS", "--mas")] = None,
-    falloff: Annotated[
-        str | None,
-        _word("Of the open field.", "none|inverse_square_cosine", "--falloff"),
-    ] = None,
-    focal_spot_mm: Annotated[
-        str | None, _word("Size of the focal spot.", "MM|[MM,MM]", "--focal-spot-mm")
-    ] = None,
-    scatter: Annotated[
-        bool | None, typer.Option("--scatter/--no-scatter", help="Scattered radiation.")
-    ] = None,
-    grid: Annotated[
-        str | None,
-        _word("Transmissions of an anti-scatter grid.", "PRIMARY,SCATTER|none", "--grid"),
-    ] = None,
-    samples: Annotated[
-        str | None, _word("Rays a pixel, across and down.", "N|[N,N]", "--samples")
-    ] = None,
-    quantum_noise: Annotated[
-        str | None, _word("How photons are drawn.", "off|compound|per_bin", "--quantum-noise")
-    ] = None,
-    seed: Annotated[str | None, _word("Of the noise.", "N", "--seed")] = None,
-    case: Annotated[str | None, _word("Of a series, for its noise.", "N", "--case")] = None,
-    quantity: Annotated[
-        str | None,
-        _word("signal, transmission, line_integral or path_lengths.", "NAME", "--quantity"),
-    ] = None,
-    mode: Annotated[
-        str | None, _word("How grey is chosen.", "stretch|window|percentile|equalise", "--mode")
-    ] = None,
-    scope: Annotated[
-        str | None, _word("What the greys depend on.", "image|fixed", "--scope")
-    ] = None,
-    window_center: Annotated[
-        str | None, _word("Line integral in the middle of the greys.", "X", "--window-center")
-    ] = None,
-    window_width: Annotated[
-        str | None, _word("Line integrals that the greys span.", "X", "--window-width")
-    ] = None,
-    percentiles: Annotated[
-        str | None, _word("What becomes black and white.", "[LOW,HIGH]", "--percentiles")
-    ] = None,
-    polarity: Annotated[
-        str | None, _word("Which end bones have.", "bones_white|bones_dark", "--polarity")
-    ] = None,
-    bits: Annotated[str | None, _word("Of a grey level.", "8|16", "--bits")] = None,
-    gsdf: Annotated[
-        str | None, _word("The display's luminances and response.", "JSON", "--gsdf")
-    ] = None,
-    truth: Annotated[
-        str | None, _word("Ground truth of every named leaf.", "KIND,…|all", "--truth")
-    ] = None,
+    words: Mapping[str, str] = MappingProxyType({}),
     truth_output: Annotated[
         str | None,
         typer.Option(
@@ -141,32 +44,23 @@ def make(
     sidecar: Annotated[
         bool, typer.Option("--sidecar", help="Write the metadata beside it, as .json.")
     ] = False,
-    blind: Annotated[
-        bool | None,
-        typer.Option("--blind/--no-blind", help="Leave out of the file what it says of itself."),
-    ] = None,
     settings: Settings = None,
     abnormality: Abnormalities = None,
     as_json: AsJson = False,
 ) -> None:
     """X-ray a phantom of the library, or a document, and write the picture."""
-    options = {**locals(), "blind": _truth(blind), "scatter": _truth(scatter)}
     with reporting(as_json=as_json):
         from phantom.encode import format_of_path
         from phantom.requests.radiograph import plan
-        from phantom.requests.words import WORDS, request_tree
+        from phantom.requests.words import request_tree
 
-        if acquisition is not None:
-            options["acquisition"] = json_text(acquisition, "/acquisition")
-        if truth_output is not None and truth is None:
-            options["truth"] = "all"
-        given = {word: options[word] for word in WORDS if options[word] is not None}
+        given = asked(words, truth_output)
         planned = plan(*request_tree(subject(target, settings, abnormality), given.items()))
         pose = planned.chosen.get("view", "view")
         path = Path(output or f"{planned.phantom.document.name}-{pose}.png")
         planned.check_format(format_of_path(path))
         beside_it = _truth_path(planned, truth_output, path)
-        _tell_defaults(planned, given, None if output else path)
+        tell_defaults(planned.chosen, given, None if output else path)
         made, beside = _render(planned, path, sidecar=sidecar, quiet=as_json)
         for warning in made.warnings:
             say(f"warning: {warning}")
@@ -176,17 +70,25 @@ def make(
             answer({"output": str(path), **beside})
 
 
-def _truth(flag: bool | None) -> str | None:
-    """Return a flag as a query string has it."""
-    return None if flag is None else str(flag).lower()
+def asked(words: Mapping[str, str], truth_output: str | None) -> dict[str, str]:
+    """Return the words of a query string for those of a command line.
+
+    A file of an acquisition is read; a place for ground truth asks for all of it.
+    """
+    given = dict(words)
+    if "acquisition" in given:
+        given["acquisition"] = json_text(given["acquisition"], "/acquisition")
+    if truth_output is not None:
+        given.setdefault("truth", "all")
+    return given
 
 
-def _tell_defaults(
-    planned: RadiographPlan, given: Mapping[str, object], output: Path | None
+def tell_defaults(
+    chosen: Mapping[str, object], given: Mapping[str, object], output: Path | None
 ) -> None:
     """Say in one line every value that was chosen for the person."""
-    chosen = {**planned.chosen, **({} if output is None else {"output": output})}
-    told = {word: value for word, value in chosen.items() if word not in given}
+    all_chosen = {**chosen, **({} if output is None else {"output": output})}
+    told = {word: value for word, value in all_chosen.items() if word not in given}
     if told:
         say("chosen: " + " ".join(f"{word}={_short(value)}" for word, value in told.items()))
 

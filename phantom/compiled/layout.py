@@ -50,6 +50,7 @@ class Scene(NamedTuple):
     first_part: Ints  # (L + 1,) star-shaped parts of a leaf's contour; quadrics have none
     first_segment: Ints  # (P + 1,) rows of the segment arrays
     knots: Floats  # (S + P, 4) section planes; those of part p begin at first_segment[p] + p
+    spans: Floats  # (S, 2) the axis's parameter u at the two ends of a segment
     origins: Floats  # (S, 3)
     polynomials: Floats  # (S, 12, 7)
     axes: Floats  # (S, 3, 3)

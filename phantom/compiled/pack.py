@@ -80,6 +80,7 @@ def _segments(parts: list[tuple[Part, Floats]]) -> dict[str, Any]:
     """Lay out the segments of all parts, each about its leaf's centre, and their tables."""
     columns: dict[str, list[Floats]] = {
         "knots": [np.zeros((0, 4))],
+        "spans": [np.zeros((0, 2))],
         "origins": [np.zeros((0, 3))],
         "polynomials": [np.zeros((0, 12, 7))],
         "axes": [np.zeros((0, 3, 3))],
@@ -94,6 +95,7 @@ def _segments(parts: list[tuple[Part, Floats]]) -> dict[str, Any]:
         cut = part.segments
         offsets = cut.planes[:, 3] - cut.planes[:, :3] @ center
         columns["knots"].append(np.column_stack([cut.planes[:, :3], offsets]))
+        columns["spans"].append(np.column_stack([cut.knots[:-1], cut.knots[1:]]))
         columns["origins"].append(cut.origins - center)
         columns["polynomials"].append(cut.polynomials)
         columns["axes"].append(cut.axes)

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, Field, field_validator
 
 from phantom.document.base import Choice, Fraction, Model, Name, Number, refuse, told
-from phantom.materials import ELEMENTS, REFERENCE_NAMES
+from phantom.materials import ELEMENTS, REFERENCE_NAMES, reference
 
 FRACTION_SUM_TOLERANCE = 1e-3
 """How far the mass fractions of a composition may add up from 1 (tables are rounded to 0.001)."""
@@ -86,3 +86,21 @@ Material = Annotated[
     FixedMaterial | ReferenceMaterial | CompositionMaterial,
     Choice(_the_one_key, _KEYS, "material_kind", "exactly one of " + ", ".join(_KEYS)),
 ]
+
+
+def density_g_cm3(material: Material) -> float | None:
+    """Return the mass density of a material; None for a fixed attenuation, which has none."""
+    if isinstance(material, FixedMaterial):
+        return None
+    if isinstance(material, CompositionMaterial) or material.density_g_cm3 is not None:
+        return material.density_g_cm3
+    return reference(material.reference).density_g_cm3
+
+
+def composition(material: Material) -> Mapping[str, float] | None:
+    """Return the mass fraction of each element; None for a fixed attenuation, which has none."""
+    if isinstance(material, FixedMaterial):
+        return None
+    if isinstance(material, CompositionMaterial):
+        return material.composition
+    return reference(material.reference).composition

@@ -10,7 +10,6 @@ from phantom.encode.picture import Picture
 from phantom.encode.png import png
 from phantom.encode.sidecar import sidecar
 from phantom.encode.stereo import (
-    ARCHIVED,
     LAYOUTS,
     Layout,
     check_layout,
@@ -21,7 +20,6 @@ from phantom.encode.stereo import (
 from phantom.encode.truth import save_truth, truth_files, truth_layers
 
 __all__ = [
-    "ARCHIVED",
     "FORMATS",
     "LAYOUTS",
     "METADATA_KEY",

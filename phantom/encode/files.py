@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import os
 import secrets
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Final
 
+from phantom.encode.archive import archive
 from phantom.errors import InvalidInputError, Problem
+
+ZIP_SUFFIX: Final = ".zip"
 
 
 def write_atomically(path: Path | str, data: bytes) -> None:
@@ -21,10 +26,7 @@ def write_atomically(path: Path | str, data: bytes) -> None:
         The folder is not there, or the path is a folder (``/output``).
     """
     path = Path(path)
-    if not path.parent.is_dir():
-        raise _refused("missing_folder", f"found no folder {str(path.parent)!r} to write into")
-    if path.is_dir():
-        raise _refused("is_a_folder", f"found a folder at {str(path)!r}, expected a file's name")
+    check_place(path)
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}")
     try:
         with temporary.open("xb") as file:
@@ -46,6 +48,27 @@ def sync_folder(folder: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def check_place(path: Path) -> None:
+    """Refuse a place where no file can be (``/output``): no folder is there, or one is it."""
+    if not path.parent.is_dir():
+        raise _refused("missing_folder", f"found no folder {str(path.parent)!r} to write into")
+    if path.is_dir():
+        raise _refused("is_a_folder", f"found a folder at {str(path)!r}, expected a file's name")
+
+
+def write_files(files: Mapping[str, bytes], path: Path) -> None:
+    """Write files to a folder, which is made where there is none, or to an archive (``.zip``).
+
+    Every file is whole or not there.
+    """
+    if path.suffix.lower() == ZIP_SUFFIX:
+        write_atomically(path, archive(files))
+        return
+    for name, data in files.items():
+        (path / name).parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(path / name, data)
 
 
 def _refused(kind: str, message: str) -> InvalidInputError:

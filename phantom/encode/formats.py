@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeVar
 
 from phantom.encode.content import (
+    COLOR,
     IMAGES,
     Content,
     Take,
@@ -30,7 +31,10 @@ from phantom.encode.sidecar import sidecar
 from phantom.encode.tiff import tiff
 from phantom.errors import InvalidInputError, Problem
 
-QUANTITIES: Final = (*IMAGES, "path_lengths")
+SHOWN: Final = (*IMAGES, COLOR)
+QUANTITIES: Final = (*IMAGES, "path_lengths", COLOR)
+
+Known = TypeVar("Known")
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +66,7 @@ class Format:
 
 
 FORMATS: Final[tuple[Format, ...]] = (
-    Format("png", (".png",), "image/png", IMAGES, grey, lambda c: png(c.only, c.told)),
+    Format("png", (".png",), "image/png", SHOWN, grey, lambda c: png(c.only, c.told)),
     Format("npy", (".npy",), "application/x-npy", QUANTITIES, numbers, lambda c: npy(c.only)),
     Format(
         "npy-uint16",
@@ -72,19 +76,19 @@ FORMATS: Final[tuple[Format, ...]] = (
         codes,
         lambda c: npy(c.only),
     ),
-    Format("tiff", (".tif", ".tiff"), "image/tiff", IMAGES, grey, lambda c: tiff(c.only, c.told)),
+    Format("tiff", (".tif", ".tiff"), "image/tiff", SHOWN, grey, lambda c: tiff(c.only, c.told)),
     Format(
         "tiff-float32",
         (".f32.tif", ".f32.tiff"),
         "image/tiff;dtype=float32",
-        IMAGES,
+        SHOWN,
         numbers,
         lambda c: tiff(c.only, c.told),
     ),
     Format(
         "exr", (".exr",), "image/x-exr", QUANTITIES, everything, lambda c: exr(c.layers, c.told)
     ),
-    Format("jpeg", (".jpg", ".jpeg"), "image/jpeg", IMAGES, grey, lambda c: jpeg(c.only, c.told)),
+    Format("jpeg", (".jpg", ".jpeg"), "image/jpeg", SHOWN, grey, lambda c: jpeg(c.only, c.told)),
     Format("dicom", (".dcm",), "application/dicom", IMAGES, judged(grey), for_presentation),
     Format(
         "dicom-processing",
@@ -113,14 +117,24 @@ def format_of_path(path: Path | str) -> Format:
     InvalidInputError
         The extension is not known (``/output``).
     """
+    return by_extension(path, _OF_EXTENSION)
+
+
+def by_extension(path: Path | str, known: Mapping[str, Known], field: str = "/output") -> Known:
+    """Return what a table has for a file's extension, in either case; the longest that fits.
+
+    Raises
+    ------
+    InvalidInputError
+        The extension is not in the table (at ``field``).
+    """
     suffixes = [suffix.lower() for suffix in Path(path).suffixes]
     for start in range(len(suffixes)):
-        known = _OF_EXTENSION.get("".join(suffixes[start:]))
-        if known is not None:
-            return known
-    names = ", ".join(_OF_EXTENSION)
+        extension = "".join(suffixes[start:])
+        if extension in known:
+            return known[extension]
     found = f"found the extension {suffixes[-1]!r}" if suffixes else "found no extension"
-    raise _unknown("/output", f"{found}, expected one of {names}")
+    raise _unknown(field, f"{found}, expected one of {', '.join(known)}")
 
 
 def format_named(name: str) -> Format:

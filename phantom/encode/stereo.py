@@ -34,9 +34,6 @@ IN_ONE: Final[tuple[Layout, ...]] = ("side_by_side", "cross_eyed", "anaglyph")
 OF_PICTURES: Final = frozenset({"png", "tiff", "jpeg"})
 """Formats of grey levels, or colours, that hold both eyes' in one picture."""
 
-ARCHIVED: Final[tuple[Layout, ...]] = ("all", "files")
-"""What an archive can hold, the default first."""
-
 MEDIA_DICOM: Final = "application/dicom"
 
 PresentationT = TypeVar("PresentationT")

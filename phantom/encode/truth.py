@@ -10,15 +10,13 @@ from typing import Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.encode.archive import archive
 from phantom.encode.coco import Annotated, coco
 from phantom.encode.exr import exr, layer_names
-from phantom.encode.files import write_atomically
+from phantom.encode.files import ZIP_SUFFIX, write_atomically, write_files
 from phantom.encode.npy import npy
 from phantom.encode.png import png
 from phantom.errors import InvalidInputError, Problem
 
-ZIP_SUFFIX: Final = ".zip"
 EXR_SUFFIX: Final = ".exr"
 
 MAPS: Final = {"masks": "mask", "thickness": "thickness", "entry_depth": "entry_depth"}
@@ -144,12 +142,7 @@ def save_truth(truth: Told, path: Path | str, image_name: str = "image.png") -> 
         write_atomically(path, truth_layers(truth))
         return (path.name,)
     files = truth_files(truth, image_name)
-    if path.suffix.lower() == ZIP_SUFFIX:
-        write_atomically(path, archive(files))
-        return tuple(files)
-    for name, data in files.items():
-        (path / name).parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(path / name, data)
+    write_files(files, path)
     return tuple(files)
 
 

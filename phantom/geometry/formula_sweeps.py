@@ -51,9 +51,10 @@ class FormulaSections:
     def placed(self, u: Floats) -> Floats:
         """Return samples of the sections, ``(n, V, 2)``."""
         points = outline_samples(self.outline, _AROUND)[0]
-        return self._map(points[None, :, 0], points[None, :, 1], u[:, None])
+        return self.mapped(points[None, :, 0], points[None, :, 1], u[:, None])
 
-    def _map(self, x: Floats, y: Floats, u: Floats) -> Floats:
+    def mapped(self, x: Floats, y: Floats, u: Floats) -> Floats:
+        """Return where points of the contour plane go at u, ``(..., 2)`` mm, all broadcast."""
         shape = np.broadcast_shapes(x.shape, y.shape, u.shape)
         x, y, u = (np.broadcast_to(a, shape).ravel() for a in (x, y, u))
         columns = [np.broadcast_to(f.values(x=x, y=y, u=u), x.shape) for f in self.forward]
@@ -67,7 +68,7 @@ class FormulaSections:
         breaks = self.outline.breaks
         joints = self.outline.derivatives(breaks[:-1], np.arange(len(breaks) - 1))[0]
         u = (start[:, None] + np.array([0.25, 0.5, 0.75]) * (end - start)[:, None]).ravel()
-        seen = self._map(joints[None, :, 0], joints[None, :, 1], u[:, None])
+        seen = self.mapped(joints[None, :, 0], joints[None, :, 1], u[:, None])
         seen = seen - self.centers(u)[:, None]
         moving = pseudo_angle(seen.reshape(-1, 2)).reshape(len(start), -1)
         fixed = np.broadcast_to(EVENLY, (len(start), len(EVENLY)))
@@ -101,7 +102,7 @@ class FormulaSections:
             v = (low * f_high - high * f_low) / np.where(rise != 0, rise, 1.0)
             v = np.where((rise != 0) & (v >= low) & (v <= high), v, 0.5 * (low + high))
             plane = self.outline.derivatives(v, piece)[0]
-            point = self._map(plane[:, 0], plane[:, 1], distinct[owner]) - centers[owner]
+            point = self.mapped(plane[:, 0], plane[:, 1], distinct[owner]) - centers[owner]
             f = sense * plane_cross(rays, point)
             size = np.linalg.norm(point, axis=-1)
             found[left] = size

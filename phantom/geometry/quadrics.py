@@ -30,6 +30,7 @@ class QuadricShape:
     center: Floats  # (3,) mm
     form: tuple[Floats, Floats, float] | None  # A (3, 3), b (3,), c about the centre
     planes: Halfspaces
+    discs: Floats | None = None  # (2, 3, 3) mm: middle and two radii of each end, if it has two
 
     def moved(self, to: Similarity) -> QuadricShape:
         """Return the shape moved by a similarity."""
@@ -38,7 +39,11 @@ class QuadricShape:
             a, b, c = self.form
             r = to.rotation
             form = (r @ a @ r.T / to.scale**2, r @ b / to.scale, c)
-        return QuadricShape(to.points(self.center), form, self.planes.moved(to))
+        discs = None
+        if self.discs is not None:
+            discs = to.scale * self.discs @ to.rotation.T
+            discs[:, 0] = to.points(self.discs[:, 0])
+        return QuadricShape(to.points(self.center), form, self.planes.moved(to), discs)
 
     def values(self, points: Floats) -> Floats:
         """Return the form at points ``(n, 3)``, -1 everywhere for a box."""
@@ -76,7 +81,8 @@ def quadric(leaf: QuadricLeaf) -> QuadricShape:
         raise RefusalError(
             "/cuts", "too_many", f"{len(cuts.offsets)} cuts; expected at most {MAX_CUTS}"
         )
-    shape = QuadricShape(shape.center, shape.form, shape.planes.joined(cuts))
+    if len(cuts.offsets):
+        shape = QuadricShape(shape.center, shape.form, shape.planes.joined(cuts))
     if isinstance(leaf, doc.Quadric | doc.DoubleCone):
         _check_bounded(shape)
     bounds(shape)
@@ -124,7 +130,9 @@ def _cylinder(leaf: doc.Cylinder) -> QuadricShape:
     start, end = np.array(leaf.start, dtype=np.float64), np.array(leaf.end, dtype=np.float64)
     k, _, middle, planes = _ends(start, end)
     if leaf.semi_axes is None:
-        matrix = (np.eye(3) - np.outer(k, k)) / float(leaf.radius or 0.0) ** 2
+        a = b = float(leaf.radius or 0.0)
+        matrix = (np.eye(3) - np.outer(k, k)) / a**2
+        first, second = np.linalg.svd(k[None])[2][1:]
     else:
         up = np.array(leaf.up, dtype=np.float64)
         first = up - k * (k @ up)
@@ -132,7 +140,8 @@ def _cylinder(leaf: doc.Cylinder) -> QuadricShape:
         second = np.cross(k, first)
         a, b = leaf.semi_axes
         matrix = np.outer(first, first) / a**2 + np.outer(second, second) / b**2
-    return QuadricShape(middle, (matrix, np.zeros(3), -1.0), planes)
+    discs = np.array([[at, a * first, b * second] for at in (start, end)])
+    return QuadricShape(middle, (matrix, np.zeros(3), -1.0), planes, discs)
 
 
 def _cone(leaf: doc.Cone) -> QuadricShape:
@@ -143,7 +152,11 @@ def _cone(leaf: doc.Cone) -> QuadricShape:
     # |y|^2 - s^2 - (mean + slope s)^2 with s = k.y, scaled by the larger radius.
     size = max(leaf.end_radius, leaf.start_radius) ** 2
     matrix = (np.eye(3) - (1 + slope**2) * np.outer(k, k)) / size
-    return QuadricShape(middle, (matrix, -mean * slope * k / size, -(mean**2) / size), planes)
+    first, second = np.linalg.svd(k[None])[2][1:]
+    radii = ((start, leaf.start_radius), (end, leaf.end_radius))
+    discs = np.array([[at, r * first, r * second] for at, r in radii])
+    form = (matrix, -mean * slope * k / size, -(mean**2) / size)
+    return QuadricShape(middle, form, planes, discs)
 
 
 def _general(leaf: doc.Quadric) -> QuadricShape:
@@ -212,6 +225,12 @@ def bounds(shape: QuadricShape) -> Floats:
         Where nothing is left inside the planes.
     """
     planes = shape.planes
+    if shape.discs is not None:
+        # The hull of two ellipses; one about m of radii u and v reaches sqrt(u_i^2 + v_i^2).
+        middles, reach = shape.discs[:, 0], np.linalg.norm(shape.discs[:, 1:], axis=1)
+        return np.stack([(middles - reach).min(axis=0), (middles + reach).max(axis=0)])
+    if not len(planes.offsets) and (whole := _ellipsoid_box(shape)) is not None:
+        return whole
     found = []
     for count in range(4):
         for chosen in combinations(range(len(planes.offsets)), count):
@@ -230,6 +249,28 @@ def bounds(shape: QuadricShape) -> Floats:
     if np.any(box[1] - box[0] <= 1e-9 * size):
         raise RefusalError("", "empty", "nothing is left of this solid; expected a volume above 0")
     return box
+
+
+def _ellipsoid_box(shape: QuadricShape) -> Floats | None:
+    """Return the box of an ellipsoid; None for any other quadric, and for a nearly flat one.
+
+    Along a unit vector e an ellipsoid about m reaches sqrt(v e.A^-1.e), -v being its value at m.
+    """
+    if shape.form is None:
+        return None
+    a, b, c = shape.form
+    values = np.linalg.eigvalsh(a)
+    if values[0] <= 1e-9 * values[2]:
+        return None
+    inverse = np.linalg.inv(a)
+    middle = -inverse @ b
+    depth = -float(c + b @ middle)
+    if depth <= 0.0:
+        return None
+    reach = np.sqrt(depth * np.diag(inverse))
+    center = shape.center + middle
+    box = np.stack([center - reach, center + reach])
+    return box if np.all(2 * reach > 1e-9 * max(1.0, float(np.abs(reach).max()))) else None
 
 
 def _extremes(shape: QuadricShape, rows: Floats, offsets: Floats) -> list[Floats]:

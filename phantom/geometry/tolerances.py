@@ -40,3 +40,6 @@ MAX_SEGMENTS = 4096
 
 CONTOUR_GAP_MM = 1e-6
 """A contour whose stretches come nearer to one another than this crosses or touches itself."""
+
+PICKING = 1e-9
+"""What is first seen along a ray lasts longer than this share of the phantom's size."""

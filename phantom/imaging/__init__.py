@@ -1,5 +1,6 @@
 """From a phantom and a view to a radiograph: geometry, Beer's law, presentation."""
 
+from phantom.document.identity import document_sha256
 from phantom.imaging.beam import Beam, attenuations_per_mm
 from phantom.imaging.camera import Projection, projection
 from phantom.imaging.detection import (
@@ -15,7 +16,6 @@ from phantom.imaging.detection import (
 )
 from phantom.imaging.exposure import radiograph
 from phantom.imaging.gsdf import Gsdf
-from phantom.imaging.metadata import document_sha256
 from phantom.imaging.placement import covering, place, preset_view
 from phantom.imaging.poses import PRESETS, Pose, PresetName, pose
 from phantom.imaging.presentation import Presentation, contrast_jnd, present
@@ -26,6 +26,7 @@ from phantom.imaging.stereo import StereoPair, stereo_pair
 from phantom.imaging.truth import KINDS, LeafTruth, Truth
 from phantom.imaging.truth_trace import ground_truth
 from phantom.imaging.view import Detector, View
+from phantom.imaging.visibility import Visibility, visibility
 
 __all__ = [
     "IMAGES",
@@ -57,6 +58,7 @@ __all__ = [
     "StereoPair",
     "Truth",
     "View",
+    "Visibility",
     "attenuations_per_mm",
     "contrast_jnd",
     "covering",
@@ -69,4 +71,5 @@ __all__ = [
     "projection",
     "radiograph",
     "stereo_pair",
+    "visibility",
 ]

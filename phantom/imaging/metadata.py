@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from typing import TYPE_CHECKING, Any, Final
 
-from phantom.document import Document
+from phantom.document.identity import identity
 
 if TYPE_CHECKING:
     from phantom.imaging.result import Radiograph
@@ -28,33 +26,12 @@ The signal's is that of what the detector reads where there is an acquisition.""
 AXES: Final = "LPS: +x patient left, +y back, +z head; pixel centres at whole numbers"
 
 
-def document_sha256(document: Document) -> str:
-    """Return the SHA-256 of a document written as JSON with every default filled in.
-
-    The order of materials counts, since it is the order of the path lengths.
-    """
-    tree = document.model_dump(mode="json")
-    text = json.dumps(tree, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
-    return hashlib.sha256(text.encode("ascii")).hexdigest()
-
-
 def metadata(radiograph: Radiograph) -> dict[str, Any]:
     """Return the metadata of a radiograph; every value survives ``json.dumps``."""
-    import phantom
-
-    document = radiograph.phantom.document
-    anatomy = document.anatomy
     view = radiograph.view
     magnified = radiograph.pitch_at_isocentre_mm
     return {
-        "software": {"name": "phantom-xray", "version": phantom.__version__},
-        "phantom": {
-            "name": document.name,
-            "title": document.title,
-            "document_sha256": document_sha256(document),
-            "material_names": list(radiograph.phantom.material_names),
-            "anatomy": None if anatomy is None else anatomy.model_dump(mode="json"),
-        },
+        **identity(radiograph.phantom.document),
         "units": {**UNITS, "signal": radiograph.signal_unit},
         "axes": AXES,
         "view": view.model_dump(mode="json"),

@@ -50,6 +50,9 @@ class Technique:
     window
         Centre and width of the one range of line integrals that is shown, so that no lesion and no
         case shifts another's greys; None for a stretch of each image by itself, as in the paper.
+    field_mm
+        Width and height of the detector, so that pictures of all people have one scale and show
+        what a radiographer would; None for one that the whole phantom falls on.
     air_kerma_ugy
         Air kerma at the detector of a real exposure, with its noise; None for the ideal image, as
         test objects have it.
@@ -64,6 +67,7 @@ class Technique:
     anode: str | None = None
     filtration_mm: Mapping[str, float] | None = None
     air_kerma_ugy: float | None = None
+    field_mm: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,7 @@ def check_cost(
     beam: Beam,
     materials: Mapping[str, Material],
     limits: Limits,
+    images: int = 1,
 ) -> None:
     """Refuse an exposure that costs more than the limits allow.
 
@@ -35,7 +36,7 @@ def check_cost(
         sets = 1 if acquisition.scatter is None else 2
         bins = sets * len(beam.imaging_spectrum(materials).energies_kev)
     limits.check_exposure(
-        detector.columns, detector.rows, len(materials), across * down, points, bins
+        detector.columns, detector.rows, len(materials), across * down, points, bins, images
     )
 
 

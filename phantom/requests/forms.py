@@ -98,6 +98,39 @@ def kinds(text: str, path: Path) -> Read:
     return [part.strip() for part in text.split(",") if part.strip()], ()
 
 
+def plane(text: str, path: Path) -> Read:
+    """Return a number as a plane at that depth; a word or an object stays as it is."""
+    value = scalar(text)
+    return ({"plane_mm": value} if type(value) in (int, float) else value), ()
+
+
+def screen(text: str, path: Path) -> Read:
+    """Return PITCH,DISTANCE,EYES in mm as a screen; an object stays as it is."""
+    if text.strip()[:1] == "{":
+        return scalar(text), ()
+    parts = text.split(",")
+    if len(parts) != 3:
+        message = f"found {text[:60]!r}; expected PITCH,DISTANCE,EYES in mm, as in 0.27,600,63"
+        return None, (Problem(pointer(path), "wrong_length", message),)
+    names = ("pixel_pitch_mm", "distance_mm", "ipd_mm")
+    return dict(zip(names, map(scalar, parts), strict=True)), ()
+
+
+def names(text: str, path: Path) -> Read:
+    """Return NAME,NAME,… as an array; JSON stays as it is."""
+    if text.strip()[:1] == "[":
+        return scalar(text), ()
+    return [part.strip() for part in text.split(",") if part.strip()], ()
+
+
+def color(text: str, path: Path) -> Read:
+    """Return RED,GREEN,BLUE as an array, ``black`` and ``white`` as what they are; or JSON."""
+    known = {"black": [0.0, 0.0, 0.0], "white": [1.0, 1.0, 1.0]}
+    if text.strip() in known:
+        return known[text.strip()], ()
+    return (scalar(text) if text.strip()[:1] == "[" else list(map(scalar, text.split(",")))), ()
+
+
 FORMS: Final[Mapping[str, Callable[[str, Path], Read]]] = {
     "acquisition": optional,
     "filtration": filters,
@@ -106,5 +139,9 @@ FORMS: Final[Mapping[str, Callable[[str, Path], Read]]] = {
     "focal_spot_mm": both,
     "samples": both,
     "truth": kinds,
+    "zero_parallax": plane,
+    "screen": screen,
+    "hide": names,
+    "background": color,
 }
 """How the words with a way of their own are written; all others are :func:`plain`."""

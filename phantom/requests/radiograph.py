@@ -15,7 +15,7 @@ from pydantic import Field
 from phantom import library
 from phantom.document import Model, told
 from phantom.document.base import Boolean
-from phantom.encode import Format
+from phantom.encode import Format, check_held
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import (
     Acquisition,
@@ -120,10 +120,7 @@ class RadiographPlan:
 
     def check_format(self, format: Format) -> None:
         """Refuse a file format that cannot hold the quantity, before anything is traced."""
-        if self.quantity not in format.quantities:
-            held = ", ".join(format.quantities)
-            message = f"found {self.quantity!r}, but {format.name} holds one of {held}"
-            raise InvalidInputError([Problem("/quantity", "not_in_format", message)])
+        check_held(format, self.quantity)
         display = self.presentation.gsdf
         if format.name == "dicom" and display is not None and display.response is not None:
             message = "found a response, but a DICOM file holds P-values; expected none"
@@ -193,13 +190,20 @@ def plan(
         Every problem found, with the path of its field in the request.
     """
     request, phantom = read_request(RadiographRequest, tree, known)
-    return plan_of(request, phantom, limits)
+    planned = plan_of(request, phantom, limits)
+    planned.presentation.check_alone()
+    return planned
 
 
 def plan_of(
-    request: RadiographRequest, phantom: Phantom, limits: Limits | None = None
+    request: RadiographRequest,
+    phantom: Phantom,
+    limits: Limits | None = None,
+    images: int = 1,
 ) -> RadiographPlan:
     """Return what a request asks for, of a phantom that is ready.
+
+    Limits count so many ``images``, such as the two of a pair.
 
     The phantom need not be the one that the request describes, which then only says whose views
     and techniques hold: a series prepares each phantom once.
@@ -219,15 +223,15 @@ def plan_of(
     if "rows" not in grid.model_fields_set:
         grid = grid.model_copy(update={"rows": grid.columns})
     limits = limits or Limits()
-    limits.check_radiograph(grid.columns, grid.rows, len(phantom.material_names))
+    limits.check_radiograph(grid.columns, grid.rows, len(phantom.material_names), images)
     kinds = check_kinds(request.truth)
     if kinds:
-        limits.check_truth(grid.columns, grid.rows, len(phantom.named_leaves))
+        limits.check_truth(grid.columns, grid.rows, len(phantom.named_leaves), images)
     view = view_of(phantom, request.view, grid, technique, recommended)
     detector = view.detector
     beam = _beam(request.beam, technique)
     acquisition, noise = _acquisition(request, technique), request.noise
-    check_cost(acquisition, detector, beam, phantom.document.materials, limits)
+    check_cost(acquisition, detector, beam, phantom.document.materials, limits, images)
     check_exposure(phantom, view, beam, acquisition)
     presentation = _presentation(request.presentation, technique)
     chosen = {

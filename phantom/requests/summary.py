@@ -5,15 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Annotated
 
-from phantom.document import (
-    CompositionMaterial,
-    Document,
-    FixedMaterial,
-    Material,
-    Model,
-    told,
-)
-from phantom.materials import reference
+from phantom.document import Document, Material, Model, told
+from phantom.document.substances import density_g_cm3
 from phantom.scene import Phantom
 from phantom.tracing import measure
 
@@ -55,15 +48,6 @@ class DocumentSummary(Model):
     warnings: Annotated[
         tuple[str, ...], told("Warnings", "none", "What to know about solids that are sound.")
     ]
-
-
-def density_g_cm3(material: Material) -> float | None:
-    """Return the mass density of a material; None for a fixed attenuation, which has none."""
-    if isinstance(material, FixedMaterial):
-        return None
-    if isinstance(material, CompositionMaterial) or material.density_g_cm3 is not None:
-        return material.density_g_cm3
-    return reference(material.reference).density_g_cm3
 
 
 def summarise(phantom: Phantom, cancelled: Callable[[], bool] | None = None) -> DocumentSummary:

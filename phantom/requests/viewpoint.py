@@ -84,6 +84,9 @@ def view_of(
     if isinstance(wanted, PlacedView):
         return _placed(phantom, wanted, grid)
     preset = _with_technique(wanted, technique, recommended)
+    if grid.pitch_mm is None and technique.field_mm is not None:
+        pitch_mm = technique.field_mm / max(grid.columns, grid.rows)
+        grid = grid.model_copy(update={"pitch_mm": pitch_mm})
     try:
         return place(phantom, preset, grid)
     except ValidationError as error:  # distances that put the tube out of the world

@@ -87,6 +87,8 @@ def warm() -> None:
     from phantom.tracing.points import materials_at
     from phantom.tracing.raster import raster
     from phantom.tracing.rays import intervals, path_lengths
+    from phantom.tracing.seen import first_hits
+    from phantom.tracing.shading import shaded
 
     phantom = load(
         {
@@ -110,4 +112,9 @@ def warm() -> None:
     intervals(phantom, origin, along)
     path_lengths(phantom, origin, along)
     materials_at(phantom, origin)
+    first_hits(phantom, origin, along)
+    view = np.array([[0, 0, -9], [0, 0, 0], [0, 0, 0], [0, 0, 18], [0, 1, 0], [1, 0, 0]], float)
+    lights = np.array([[0.0, 0.0, -1.0, 0.0]]), np.ones((1, 3))
+    look, shown = np.full((1, 7), 0.25), np.ones(1, dtype=np.uint8)
+    shaded(phantom, view, 1, 1, 1, shown, look, np.ones(3), lights, shadows=True)
     mark_complete()

@@ -4,6 +4,7 @@ from phantom.visible.camera import Camera
 from phantom.visible.lights import DirectionalLight, Lighting, PointLight
 from phantom.visible.picture import Picture
 from phantom.visible.presets import CAMERA_NAMES, CameraPreset, preset_camera
+from phantom.visible.rendering import render
 from phantom.visible.tone import Tone
 
 __all__ = [
@@ -16,4 +17,5 @@ __all__ = [
     "PointLight",
     "Tone",
     "preset_camera",
+    "render",
 ]

@@ -53,7 +53,9 @@ def toned(rgb: Floats, tone: Tone) -> Levels:
         width = greatest - least
         share = (rgb - least) / width if width > 0.0 else np.zeros(rgb.shape)
     levels = np.rint(share * (2**tone.bits - 1))
-    return levels.astype(np.uint8 if tone.bits == 8 else np.uint16)
+    if tone.bits == 8:
+        return np.asarray(levels, dtype=np.uint8)
+    return np.asarray(levels, dtype=np.uint16)
 
 
 def srgb(rgb: Floats) -> Floats:

@@ -196,7 +196,7 @@ def _mass(
         way = generator.standard_normal(3)
         way /= np.linalg.norm(way)
         tip = radius + mass.spicule_mm * float(generator.uniform(0.5, 1.0))
-        wide = 0.05 * mass.diameter_mm * float(generator.uniform(0.6, 1.4)) + 0.1
+        wide = 0.09 * mass.diameter_mm * float(generator.uniform(0.6, 1.4)) + 0.1
         spicules.append(
             Cone(
                 type="cone",

@@ -84,7 +84,7 @@ class BlasticLesion(Abnormality):
 
     type: Literal["blastic_lesion"] = "blastic_lesion"
     bone: Annotated[Bone, told("Bone", "none", "Which one.")] = "middle metacarpal"
-    at: _At = 0.86
+    at: _At = 0.8
     width_mm: Annotated[Number, told("Width", "mm", "Across the bone.", ge=1.0, le=12.0)] = 4.0
     length_mm: Annotated[Number, told("Length", "mm", "Along the bone.", ge=1.0, le=25.0)] = 5.0
 
@@ -135,8 +135,8 @@ class ForeignBody(Abnormality):
     deep_mm: Annotated[
         Number, told("Deep", "mm", "From the bone's axis toward the palm.", ge=0.0, le=18.0)
     ] = 5.5
-    length_mm: Annotated[Number, told("Length", "mm", "Of the splinter.", ge=0.5, le=12.0)] = 4.0
-    width_mm: Annotated[Number, told("Width", "mm", "Of the splinter.", ge=0.2, le=3.0)] = 1.0
+    length_mm: Annotated[Number, told("Length", "mm", "Of the splinter.", ge=0.5, le=12.0)] = 5.0
+    width_mm: Annotated[Number, told("Width", "mm", "Of the splinter.", ge=0.2, le=3.0)] = 1.6
 
 
 ABNORMALITIES: Final[dict[str, type[Abnormality]]] = {

@@ -181,8 +181,8 @@ def _osteoarthritis(hand: Hand, wrong: Osteoarthritis, name: str, _: Outlines) -
     spurs = tuple(
         ellipsoid(
             f"{name} {edge}",
-            (sign * (width / 2 - 0.3), 0.0, 0.5),
-            (0.3 + 0.4 * spur, 0.36 * depth, 0.4 + 0.6 * spur),
+            (sign * (width / 2 - 0.3 - 0.4 * spur), 0.0, 0.9),
+            (0.3 + 0.75 * spur, 0.4 * depth, 0.7 + 0.45 * spur),
             CORTEX,
         )
         for edge, sign in (("radial spur", 1.0), ("ulnar spur", -1.0))

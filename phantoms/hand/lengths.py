@@ -58,10 +58,10 @@ _MOST_SPREAD: Final = 0.075
 BONES: Final = tuple(f"{digit} {kind}" for digit in DIGITS for kind in KINDS[digit])
 """Names of the tubular bones, ray by ray."""
 
-_Metacarpal = Annotated[Number | None, told("Metacarpal", "mm", "Length.", ge=30.0, le=95.0)]
-_Proximal = Annotated[Number | None, told("Proximal phalanx", "mm", "Length.", ge=22.0, le=62.0)]
-_Middle = Annotated[Number | None, told("Middle phalanx", "mm", "Length.", ge=12.0, le=38.0)]
-_Distal = Annotated[Number | None, told("Distal phalanx", "mm", "Length.", ge=10.0, le=30.0)]
+_Metacarpal = Annotated[Number | None, told("Metacarpal", "mm", "Length.", ge=28.0, le=95.0)]
+_Proximal = Annotated[Number | None, told("Proximal phalanx", "mm", "Length.", ge=20.0, le=65.0)]
+_Middle = Annotated[Number | None, told("Middle phalanx", "mm", "Length.", ge=11.0, le=38.0)]
+_Distal = Annotated[Number | None, told("Distal phalanx", "mm", "Length.", ge=9.0, le=30.0)]
 
 
 class BoneLengths(PersonParameters):

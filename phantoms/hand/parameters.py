@@ -65,8 +65,8 @@ class Parameters(BoneLengths):
         told(
             "Bone width",
             "1",
-            "Of the tubular bones over that of the mean adult, at equal stature; null for the mean"
-            " of the sex.",
+            "Of all bones, wrist and palm over that of the mean adult, at equal stature; null for"
+            " the mean of the sex.",
             ge=0.85,
             le=1.15,
         ),

@@ -42,10 +42,10 @@ class Width(NamedTuple):
 WIDTHS: Final[dict[str, dict[str, Width]]] = {
     METACARPAL: {
         "thumb": Width(15.5, 11.2, 14.8, 14.5, 8.6, 12.2),
-        "index": Width(16.5, 8.9, 15.4, 15.5, 9.4, 14.8),
-        "middle": Width(14.0, 8.9, 15.0, 16.0, 9.6, 15.0),
-        "ring": Width(11.6, 7.2, 13.0, 13.5, 8.0, 13.0),
-        "little": Width(12.4, 7.8, 12.4, 11.5, 7.4, 12.0),
+        "index": Width(15.4, 8.9, 15.4, 15.5, 9.4, 14.8),
+        "middle": Width(13.3, 8.9, 15.0, 16.0, 9.6, 15.0),
+        "ring": Width(11.2, 7.2, 13.0, 13.5, 8.0, 13.0),
+        "little": Width(11.8, 7.8, 12.4, 11.5, 7.4, 12.0),
     },
     PROXIMAL: {
         "thumb": Width(15.0, 9.2, 12.4, 11.5, 6.8, 8.4),
@@ -125,7 +125,10 @@ def stations(kind: str, width: Width, length_mm: float, bow_mm: float) -> list[S
     else:
         end = length_mm - head_length_mm(kind, width)
         table = _METACARPAL_HEAD if kind == METACARPAL else _PHALANX_HEAD
-        rows += [(end - back * length_mm, between(head, share)) for back, share in table]
+        # A stubby bone has less shaft, not less head.
+        room = (end - rows[-1][0]) / (table[0][0] * length_mm)
+        back_mm = min(1.0, 0.9 * room) * length_mm
+        rows += [(end - back * back_mm, between(head, share)) for back, share in table]
     first, last = rows[0][0], rows[-1][0]
 
     def bowed(z: float) -> float:

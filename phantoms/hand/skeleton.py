@@ -74,7 +74,7 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Skeleton:
-    """The tubular bones by digit and kind, and how large the rest is."""
+    """The tubular bones by digit and kind, and how much larger than the mean all but lengths is."""
 
     scale: float
     bones: Mapping[BoneName, Placed] = field(default_factory=dict)
@@ -96,7 +96,7 @@ class Skeleton:
 
 def skeleton(parameters: Parameters) -> Skeleton:
     """Return the healthy bones of a hand with nothing left out."""
-    scale = parameters.scale
+    scale = parameters.scale * parameters.value("bone_width")
     made: dict[BoneName, Placed] = {}
     for digit in DIGITS:
         kinds = KINDS[digit]
@@ -104,7 +104,7 @@ def skeleton(parameters: Parameters) -> Skeleton:
         gaps = tuple(SPACES[kind] * parameters.value("joint_space_mm") for kind in kinds[:-1])
         frames = chain(digit, scale, lengths, gaps)
         for index, kind in enumerate(kinds):
-            width = WIDTHS[kind][digit].times(scale * parameters.value("bone_width"))
+            width = WIDTHS[kind][digit].times(scale)
             share = shaft_index(kind, parameters.value("metacarpal_index"))
             shape = Shape(kind, width, lengths[index], share * width.shaft / 2)
             made[digit, kind] = Placed(frames[index], shape)

@@ -6,6 +6,7 @@ join them. Thicknesses are estimates.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Final
@@ -15,7 +16,7 @@ import numpy as np
 from phantom.document import Point, Solid
 from phantoms.hand.forearm import END_Z_MM
 from phantoms.hand.frames import FloatArray, Frame
-from phantoms.parts import Station, layered, swept, union, within
+from phantoms.parts import ROUND, Outline, Station, layered, swept, union, within
 
 SKIN, FAT, SOFT = "skin", "fat", "soft tissue"
 SKIN_MM: Final = 1.2
@@ -25,30 +26,30 @@ TIP_MM: Final = {"thumb": 5.7, "index": 3.8, "middle": 4.0, "ring": 4.0, "little
 # Half-width and half-depth at: middle of the metacarpal, its head, middle of the proximal phalanx,
 # PIP joint, middle of the middle phalanx, DIP joint, tuft; for the thumb without the fourth pair.
 _TUBES: Final[dict[str, tuple[tuple[float, float], ...]]] = {
-    "thumb": ((8.0, 9.5), (15.0, 12.5), (12.8, 11.5), (10.8, 9.6), (10.9, 9.0), (9.0, 6.8)),
+    "thumb": ((7.0, 8.0), (15.0, 12.5), (12.8, 11.5), (10.8, 9.6), (10.9, 9.0), (9.0, 6.8)),
     "index": (
-        (9.0, 10.0), (10.6, 11.4), (9.8, 9.6), (9.6, 8.9), (8.6, 7.8), (8.3, 7.0), (6.8, 5.6),
+        (6.0, 6.5), (10.6, 11.4), (9.8, 9.6), (9.6, 8.9), (8.6, 7.8), (8.3, 7.0), (6.8, 5.6),
     ),
     "middle": (
-        (9.0, 10.0), (10.8, 11.6), (10.0, 9.8), (9.8, 9.1), (8.8, 8.0), (8.5, 7.1), (7.0, 5.7),
+        (6.0, 6.5), (10.8, 11.6), (10.0, 9.8), (9.8, 9.1), (8.8, 8.0), (8.5, 7.1), (7.0, 5.7),
     ),
     "ring": (
-        (9.0, 10.0), (10.2, 11.2), (9.5, 9.4), (9.3, 8.7), (8.3, 7.6), (8.0, 6.8), (6.6, 5.5),
+        (6.0, 6.5), (10.2, 11.2), (9.5, 9.4), (9.3, 8.7), (8.3, 7.6), (8.0, 6.8), (6.6, 5.5),
     ),
     "little": (
-        (9.0, 9.5), (9.4, 10.4), (8.5, 8.4), (8.2, 7.7), (7.3, 6.7), (7.1, 6.0), (5.9, 4.9),
+        (6.0, 6.0), (9.4, 10.4), (8.5, 8.4), (8.2, 7.7), (7.3, 6.7), (7.1, 6.0), (5.9, 4.9),
     ),
 }  # fmt: skip
 # z, x of the little finger's side and of the thumb's, y of the palm and of the back.
 _PALM: Final = (
     (END_Z_MM, -29.4, 25.6, -18.8, 16.0),
     (-64.0, -29.8, 26.5, -18.6, 15.5),
-    (-50.0, -30.8, 28.5, -18.0, 15.0),
-    (-35.0, -32.8, 30.5, -18.0, 14.5),
-    (-18.0, -36.5, 33.0, -18.0, 14.0),
-    (0.0, -40.0, 33.5, -18.0, 13.0),
-    (18.0, -43.0, 32.0, -17.5, 12.0),
-    (36.0, -45.0, 32.5, -16.5, 11.0),
+    (-50.0, -30.8, 28.5, -18.4, 15.0),
+    (-35.0, -32.8, 30.8, -19.0, 14.5),
+    (-18.0, -36.5, 33.6, -19.6, 14.0),
+    (0.0, -40.0, 33.8, -19.2, 13.2),
+    (18.0, -43.0, 32.0, -18.0, 12.4),
+    (36.0, -45.0, 32.5, -16.5, 11.8),
     (48.0, -43.5, 34.0, -15.0, 10.5),
     (58.0, -38.0, 34.5, -13.5, 9.5),
     (67.0, -30.0, 33.0, -12.0, 8.0),
@@ -56,6 +57,17 @@ _PALM: Final = (
     (80.0, -12.0, 24.0, -7.0, 3.0),
     (82.5, -5.0, 17.0, -4.5, 0.5),
 )
+_OUTLINES: Final[dict[str, Outline]] = {
+    "palm": tuple(
+        (
+            math.copysign(abs(math.cos(angle)) ** 0.72, math.cos(angle)),
+            math.copysign(abs(math.sin(angle)) ** 0.72, math.sin(angle)),
+        )
+        for angle in (math.pi * (index + 0.5) / 10 for index in range(20))
+    )
+}
+"""Sections that are no ellipses: the palm's are squarer."""
+
 # The web between thumb and index: a fold from the palm's edge, as sections across its length.
 _WEB: Final = (
     ((10.0, -6.5, -14.0), 16.0, 9.0),
@@ -96,7 +108,9 @@ def envelope(outer: Mapping[str, Sequence[Station]], fat_mm: float) -> Solid:
     layers = []
     for material, depth in ((SKIN, 0.0), (FAT, SKIN_MM), (SOFT, SKIN_MM + fat_mm)):
         parts = [
-            swept(f"{name} {material}", _inside(stations, depth), material)
+            swept(
+                f"{name} {material}", _inside(stations, depth), material, _OUTLINES.get(name, ROUND)
+            )
             for name, stations in outer.items()
         ]
         layers.append(union(*parts))

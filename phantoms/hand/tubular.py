@@ -17,16 +17,6 @@ PLATE_MM: Final = 0.7
 _THIN_MM: Final = 0.45
 """Thickness of the cortex at the ends of a bone; an estimate."""
 _BOW: Final = {METACARPAL: 0.028, DISTAL: 0.0}
-_OUTLINE: Final = tuple(
-    (round(float(x), 6), round(float(y), 6))
-    for x, y in (
-        (
-            np.sign(np.cos(a)) * abs(np.cos(a)) ** 0.86,
-            np.sign(np.sin(a)) * abs(np.sin(a)) ** 0.86,
-        )
-        for a in np.linspace(0, 2 * np.pi, 16, endpoint=False)
-    )
-)
 
 
 class Knob(NamedTuple):
@@ -40,6 +30,12 @@ class Knob(NamedTuple):
         """Return the ellipsoid with that much more on every semi-axis."""
         a, b, c = self.semi_axes
         return self._replace(semi_axes=(a + by_mm, b + by_mm, c + by_mm))
+
+    def reaches(self, cut: Cut) -> bool:
+        """Whether something is left of it where a plane takes the rest away."""
+        away = np.array(cut.normal) / np.linalg.norm(cut.normal)
+        depth = float(away @ (np.array(self.center) - cut.point))
+        return depth - float(np.linalg.norm(away * self.semi_axes)) < -0.01
 
     def solid(self, name: str, material: str | None, cuts: Sequence[Cut] = ()) -> Ellipsoid:
         """Return the leaf."""
@@ -144,28 +140,44 @@ def bone(
         Planes that take a part of every leaf away.
     """
     outer = shape.outer
+
+    def kept(knob: Knob) -> bool:
+        return all(knob.reaches(cut) for cut in cuts)
+
     spongy = within(outer, shape.walls(outer), closed=(True, shape.kind == DISTAL))
     whole = union(
-        swept("cortex", outer, CORTEX, _OUTLINE, cuts=cuts),
-        *(knob.solid(knob.name, CORTEX, cuts) for knob in shape.knobs),
-        *spurs,
+        swept("cortex", outer, CORTEX, cuts=cuts),
+        *(knob.solid(knob.name, CORTEX, cuts) for knob in shape.knobs if kept(knob)),
+        *(spur.model_copy(update={"cuts": tuple(cuts)}) for spur in spurs if kept(_knob(spur))),
     )
     core = union(
-        swept("spongiosa", spongy, SPONGIOSA, _OUTLINE, cuts=cuts),
+        swept("spongiosa", spongy, SPONGIOSA, cuts=cuts),
         *(
             knob.grown(-_under(shape)).solid(f"{knob.name} spongiosa", SPONGIOSA, cuts)
             for knob in shape.knobs
+            if kept(knob.grown(-_under(shape)))
         ),
     )
     plates = [knob.grown(shape.plate_mm[0]) for knob in shape.hollows]
-    canal = swept("marrow", _canal(spongy, shape), MARROW, _OUTLINE, cuts=cuts)
+    canal = _canal(spongy, shape)
+    middle = Knob("marrow", (0.0, 0.0, (canal[0].at[2] + canal[-1].at[2]) / 2), _reach(canal))
     made = layered(
         _hollowed(whole, shape.hollows, "hollow"),
         _hollowed(core, plates, "inner hollow"),
-        canal,
+        *([swept("marrow", canal, MARROW, cuts=cuts)] if kept(middle) else []),
         *inside,
     )
     return Difference(type="difference", solids=(made, *eroded)) if eroded else made
+
+
+def _reach(rows: Sequence[Station]) -> Point:
+    """Return the semi-axes of an ellipsoid that lies in a canal, about its middle."""
+    middle = rows[len(rows) // 2]
+    return (0.5 * middle.x[1], 0.5 * middle.b[1], 0.98 * (rows[-1].at[2] - rows[0].at[2]) / 2)
+
+
+def _knob(spur: Ellipsoid) -> Knob:
+    return Knob(spur.name or "", spur.center, spur.semi_axes)
 
 
 def _under(shape: Shape) -> float:

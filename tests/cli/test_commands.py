@@ -184,10 +184,10 @@ def test_nothing_is_written_for_bad_input(run, tmp_path: Path, monkeypatch, word
 
 
 def test_a_fault_of_ours_leaves_with_1(run, monkeypatch):
-    def fail(_):
+    def fail():
         raise RuntimeError("broken")
 
-    monkeypatch.setattr("phantom.library.entry", fail)
+    monkeypatch.setattr("phantom.library.catalogue", fail)
     result = run("list")
     assert result.exit_code == 1
     assert "fault of ours" in result.stderr

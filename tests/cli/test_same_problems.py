@@ -10,6 +10,7 @@ from fastapi.testclient import TestClient
 
 from api.app import create_app
 from api.settings import Settings
+from phantom.requests.words import RENDER_WORDS, STEREO_WORDS
 
 SPHERE = '{"type": "sphere", "center": [0, 0, 0], "radius": 5, "material": "a"}'
 
@@ -100,6 +101,48 @@ WORDS: dict[str, dict[str, str]] = {
 }
 
 
+PAIRS: dict[str, dict[str, Any]] = {
+    "no baseline": {"baseline_mm": 0},
+    "a negative baseline": {"baseline_mm": -65},
+    "a baseline that is a word": {"baseline_mm": "wide"},
+    "an angle with a shift": {"stereo_angle_deg": 6},
+    "a baseline with a rotation": {"method": "rotate", "baseline_mm": 65},
+    "a screen at the eyes": {"screen": {"pixel_pitch_mm": 0.27, "distance_mm": 0, "ipd_mm": 63}},
+    "a screen of another shape": {"screen": {"distance_mm": 600, "colour": 1}},
+    "a plane of zero parallax behind the source": {"zero_parallax": {"plane_mm": -10}},
+    "no such plane": {"zero_parallax": "skin"},
+    "a shift of a parallel beam": {
+        "view": {"source": None, "direction": [0, 1, 0], "detector": {
+            "center": [0, 100, 0], "right": [1, 0, 0], "down": [0, 0, -1]}},
+    },
+    "an unknown layout": {"layout": "hologram"},
+    "an unknown format": {"layout": "files", "format": "gif"},
+    "a format of no files": {"layout": "anaglyph", "format": "dicom"},
+    "one image side by side": {"mono": "single", "layout": "side_by_side"},
+    "several at once": {"baseline_mm": -1, "dose": "half", "mono": "both", "columns": 0},
+}  # fmt: skip
+
+
+RENDERS: dict[str, dict[str, Any]] = {
+    "no such side": {"view": "sideways"},
+    "an eye in its target": {"view": {"eye": [1, 2, 3], "target": [1, 2, 3]}},
+    "an up along the line of sight": {"view": {"eye": [0, 0, 9], "target": [0, 0, 0]}},
+    "a side and an angle": {"view": "front", "azimuth_deg": 10},
+    "an eye and a zoom": {"view": {"eye": [0, 0, 9], "target": [0, 0, 0]}, "zoom": 2},
+    "a field of view of parallel lines": {"parallel": True, "field_of_view_deg": 10},
+    "no pixels": {"columns": 0, "rows": -1},
+    "too many pixels": {"columns": 16384, "rows": 16384},
+    "too many samples": {"samples_per_pixel": 9},
+    "an unknown name to hide": {"hide": ["bone", "ball"]},
+    "a light of no kind": {"lighting": {"lights": [{"type": "lamp"}]}},
+    "a light from nowhere": {
+        "lighting": {"lights": [{"type": "directional", "to_light": [0, 0, 0]}]}
+    },
+    "a colour beyond white": {"background": [0, 0, 2]},
+    "an unknown tone": {"mode": "film", "bits": 12},
+}  # fmt: skip
+
+
 @pytest.fixture(scope="module")
 def client() -> TestClient:
     return TestClient(create_app(Settings()), raise_server_exceptions=False)
@@ -138,6 +181,52 @@ def test_of_words(run, client, words: dict[str, Any]):
     there = client.get("/v1/radiographs/sphere", params=words)
     here = run("radiograph", "sphere", *options, "--json", "-o", "never.png")
     assert (there.status_code, here.exit_code) == (422, 2)
+    problems = told(json.loads(here.stderr)["problems"])
+    assert problems
+    assert problems == told(there.json()["problems"])
+
+
+@pytest.mark.parametrize("words", PAIRS.values(), ids=PAIRS.keys())
+def test_of_a_pair(run, client, words: dict[str, Any]):
+    """The command's words and the JSON of the service; PNG is the form of both."""
+    body: dict[str, Any] = {"phantom": {"name": "sphere"}}
+    for word, value in words.items():
+        *sections, name = STEREO_WORDS[word] if word != "view" else ("view",)
+        part = body
+        for section in sections:
+            part = part.setdefault(section, {})
+        part[name] = value
+    texts = {k: v if isinstance(v, str) else json.dumps(v) for k, v in words.items()}
+    options = [f"--{k.replace('_', '-')}={v}" for k, v in texts.items()]
+    archived = words.get("layout") == "files"
+    there = client.post("/v1/stereo-pairs", json=body)
+    output = "never.zip" if archived else "never.png"
+    here = run("stereo", "sphere", *options, "--json", "-o", output)
+    assert (there.status_code, here.exit_code) == (422, 2), here.stderr
+    problems = told(json.loads(here.stderr)["problems"])
+    assert problems
+    assert problems == told(there.json()["problems"])
+
+
+@pytest.mark.parametrize("words", RENDERS.values(), ids=RENDERS.keys())
+def test_of_a_render(run, client, words: dict[str, Any]):
+    """The command's words, and the JSON of the service."""
+    body: dict[str, Any] = {"phantom": {"name": "sphere"}}
+    for word, value in sorted(words.items(), key=lambda pair: pair[0] != "view"):
+        *sections, name = RENDER_WORDS[word]
+        if word == "view" and isinstance(value, dict):
+            body["camera"] = dict(value)
+            continue
+        part = body
+        for section in sections:
+            part = part.setdefault(section, {})
+        part[name] = value
+    texts = {k: v if isinstance(v, str) else json.dumps(v) for k, v in words.items()}
+    options = [f"--{k.replace('_', '-')}={v}" for k, v in texts.items() if k != "parallel"]
+    options += ["--parallel"] * ("parallel" in words)
+    there = client.post("/v1/renders", json=body)
+    here = run("render", "sphere", *options, "--json", "-o", "never.png")
+    assert (there.status_code, here.exit_code) == (422, 2), here.stderr
     problems = told(json.loads(here.stderr)["problems"])
     assert problems
     assert problems == told(there.json()["problems"])

@@ -65,7 +65,34 @@ def stereo_pair(
     CancelledError
         ``cancelled`` turned true.
     """
-    asked = Stereo(**stereo)
+    return pair_of(
+        phantom,
+        view,
+        beam,
+        Stereo(**stereo),
+        acquisition=acquisition,
+        noise=noise,
+        isocentre=isocentre,
+        workers=workers,
+        cancelled=cancelled,
+        progress=progress,
+    )
+
+
+def pair_of(
+    phantom: Phantom,
+    view: View,
+    beam: Beam | None,
+    asked: Stereo,
+    *,
+    acquisition: Acquisition | None = None,
+    noise: NoiseKey | None = None,
+    isocentre: FloatArray | None = None,
+    workers: int | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> StereoPair:
+    """X-ray a phantom for two eyes, as :func:`stereo_pair` does, from what was asked as a whole."""
     check_eye(noise)
     found = placed(phantom, view, asked, isocentre)
     beam = beam if beam is not None else Beam()

@@ -1,0 +1,135 @@
+"""Skin, fat, muscle and breasts: the outline of the trunk, neck and shoulders."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from phantom.document import GeneralizedCylinder, Rotation, Solid, Sphere, Transformed
+from phantoms.chest.cage import Cage
+from phantoms.chest.frame import Frame
+from phantoms.chest.girdle import arm_axis, arm_cut
+from phantoms.chest.ribs import SIDES, on_side
+from phantoms.chest.shapes import Row, column, fitted, grown, rounded, sampled, tube
+from phantoms.parts import ellipsoid, union
+
+SKIN_MM: Final = 1.6
+LAYERS: Final = ("muscle", "fat", "skin")
+"""Inside out; each is drawn with all that it encloses."""
+# z, half-width, front and back of the trunk under its fat, drawn.
+_TRUNK: Final = (
+    (-250.0, 143.0, -102.0, 86.0),
+    (-150.0, 151.0, -108.0, 98.0),
+    (-100.0, 155.0, -109.0, 105.0),
+    (-50.0, 157.0, -110.0, 111.0),
+    (0.0, 160.0, -106.0, 115.0),
+    (35.0, 166.0, -97.0, 115.0),
+    (62.0, 172.0, -86.0, 111.0),
+    (84.0, 176.0, -76.0, 104.0),
+    (98.0, 168.0, -70.0, 98.0),
+    (110.0, 148.0, -64.0, 92.0),
+    (122.0, 116.0, -56.0, 86.0),
+    (136.0, 86.0, -50.0, 78.0),
+    (152.0, 66.0, -46.0, 68.0),
+    (170.0, 58.0, -46.0, 60.0),
+    (188.0, 56.0, -48.0, 56.0),
+    (235.0, 57.0, -52.0, 54.0),
+)
+_TRUNK_SHAPE: Final = rounded(2.6)
+_ARM_RADII: Final = (42.0, 45.0, 44.0, 42.0, 40.0)
+
+
+def _fat(frame: Frame, z: float) -> float:
+    """Return the thickness of fat at a drawn height: little over the neck and shoulders."""
+    share = float(np.interp(z, (-150.0, 60.0, 110.0, 150.0), (1.0, 0.8, 0.5, 0.35)))
+    return frame.sizes.fat_mm * share
+
+
+def trunk_rows(frame: Frame) -> list[Row]:
+    """Return the sections of the muscles' surface."""
+    rows: list[Row] = [(z, -half, half, front, back) for z, half, front, back in _TRUNK]
+    return sampled(fitted(frame, rows), 14)
+
+
+def _trunk(frame: Frame, name: str, material: str, layer: int) -> Solid:
+    """Return the trunk to its muscles' surface (0), that of its fat (1) or of its skin (2)."""
+    rows = []
+    for row in trunk_rows(frame):
+        more = (0.0, _fat(frame, row[0] / frame.z), _fat(frame, row[0] / frame.z) + SKIN_MM)[layer]
+        rows += grown([row], more)
+    return column(name, rows, material, _TRUNK_SHAPE)
+
+
+def _arm(frame: Frame, name: str, material: str, layer: int) -> GeneralizedCylinder:
+    fat = 0.5 * frame.sizes.fat_mm
+    more = (0.0, fat, fat + SKIN_MM)[layer]
+    points = arm_axis(frame)
+    radii = [r * frame.bone + more for r in _ARM_RADII]
+    return tube(name, points, radii, material).model_copy(update={"cuts": (arm_cut(frame),)})
+
+
+def _shoulder(frame: Frame, name: str, material: str, layer: int) -> Solid:
+    fat = 0.5 * frame.sizes.fat_mm
+    more = (0.0, fat, fat + SKIN_MM)[layer]
+    return Sphere(
+        type="sphere",
+        name=name,
+        material=material,
+        center=arm_axis(frame)[0],
+        radius=_ARM_RADII[0] * frame.bone + more,
+        cuts=(arm_cut(frame),),
+    )
+
+
+def breast(cage: Cage, layer: int) -> Solid:
+    """Return a woman's left breast: its gland (0), its fat (1) or its skin (2)."""
+    f = cage.frame
+    fat = f.sizes.fat_mm
+    z = -52.0 * f.z
+    front = min(r[3] for r in trunk_rows(f)) - _fat(f, -40.0)
+    size = float(np.clip(1.0 + 0.012 * (fat - 16.0), 0.8, 1.5))
+    half = (60.0 * size, 38.0 * size, 74.0 * size)
+    centre = (70.0 * f.x, front + 12.0, z)
+    shrink = {0: 0.55, 1: 1.0}.get(layer)
+    axes = tuple(h * shrink for h in half) if shrink else tuple(h + SKIN_MM for h in half)
+    name, material = ("breast", ("gland", "fat", "skin")[layer])
+    if layer == 0:
+        centre = (centre[0], centre[1] - 8.0, centre[2])
+    # Its upper end leans back, so that it fades into the wall above and hangs below.
+    return Transformed(
+        type="transformed",
+        solid=ellipsoid(name, (0.0, 0.0, 0.0), (axes[0], axes[1], axes[2]), material),
+        rotate=Rotation(axis=(1.0, 0.0, 0.0), angle_deg=-24.0),
+        translate=centre,
+    )
+
+
+def definitions(cage: Cage, sex: str) -> dict[str, Solid]:
+    """Return what both sides have: the left shoulder's layers with the breast's."""
+    f = cage.frame
+    found: dict[str, Solid] = {}
+    for layer, material in enumerate(LAYERS):
+        parts: list[Solid] = [
+            _arm(f, "arm", material, layer),
+            _shoulder(f, "shoulder", material, layer),
+        ]
+        if sex == "female" and layer > 0:
+            parts.append(breast(cage, layer))
+        found[f"{material} of a side"] = union(*parts)
+    if sex == "female":
+        found["gland of a side"] = breast(cage, 0)
+    return found
+
+
+def layers(cage: Cage, sex: str) -> list[Solid]:
+    """Return skin, fat, gland and muscle, outside in, from the definitions."""
+    result: list[Solid] = []
+    for word in ("skin", "fat", "gland", "muscle"):
+        sides = [on_side(word, side, f"{word} of a side") for side in SIDES]
+        if word in LAYERS:
+            trunk = _trunk(cage.frame, f"{word} of the trunk", word, LAYERS.index(word))
+            result.append(union(trunk, *sides))
+        elif sex == "female":
+            result.append(union(*sides))
+    return result
