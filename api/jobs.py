@@ -17,17 +17,18 @@ import sqlite3
 import threading
 import time
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Final
 
 from api.problems import RefusedError
-from phantom.datasets import Run, make, read_design
+from phantom.datasets import Run, make
 from phantom.datasets.checks import check, expected_bytes
 from phantom.datasets.ledger import Counts, DiskFullError
-from phantom.errors import CancelledError, InvalidInputError
+from phantom.datasets.opening import of_tree
+from phantom.errors import CancelledError, InvalidInputError, Problem
 from phantom.requests.limits import Limits
 
 logger = logging.getLogger("phantom.api")
@@ -104,8 +105,8 @@ class Jobs:
         Where they are kept.
     ttl_hours
         How long a job is kept after it has ended.
-    max_bytes
-        Most that all jobs may take.
+    max_bytes, max_images
+        Most that all jobs may take, and most images of one.
     workers
         Processes that make images.
     limits
@@ -113,10 +114,18 @@ class Jobs:
     """
 
     def __init__(
-        self, folder: Path, ttl_hours: float, max_bytes: int, workers: int, limits: Limits
+        self,
+        folder: Path,
+        *,
+        ttl_hours: float,
+        max_bytes: int,
+        max_images: int,
+        workers: int,
+        limits: Limits,
     ) -> None:
         self.folder = folder
         self._ttl_s, self._max_bytes = ttl_hours * 3600, max_bytes
+        self._max_images = max_images
         self._workers, self._limits = workers, limits
         self._wake, self._leaving = threading.Event(), threading.Event()
         self._stop: dict[str, threading.Event] = {}
@@ -150,10 +159,11 @@ class Jobs:
         body = hashlib.sha256(canonical.encode("utf-8", "surrogatepass")).hexdigest()
         if key is not None and (known := self._of_key(key)) is not None:
             return self._same(known, body), False
-        design = read_design(tree)  # type: ignore[arg-type]
+        design = of_tree(tree)
+        if design.images > self._max_images:
+            message = f"found {design.images} images; expected {self._max_images} at most"
+            raise InvalidInputError([Problem("/people", "too_large", message)])
         needed = expected_bytes(design, check(design, self._limits))
-        if design.images > self._limits.pixels:
-            raise RefusedError(HTTPStatus.UNPROCESSABLE_ENTITY, "too many images")
         self._check_room(needed)
         job = Job(
             id=secrets.token_hex(16),
@@ -328,7 +338,7 @@ class Jobs:
             return stop.is_set() or self._leaving.is_set()
 
         try:
-            design = read_design(json.loads(job.design))
+            design = of_tree(json.loads(job.design))
             made = make(
                 design,
                 self.results(job),
@@ -370,10 +380,8 @@ class Jobs:
     def _wait_for_room(self, job: Job, problem: str, stop: threading.Event) -> None:
         """Leave a job for a while; what is finished of it is kept."""
         logger.warning("job %s has no room: %s", job.id, problem)
-        try:
+        with suppress(RefusedError):  # not even room for this
             self._set(job.id, state="out_of_space", problem=problem)
-        except RefusedError:
-            pass  # not even for this; the state is told once there is room
         until = time.monotonic() + ROOM_S
         while time.monotonic() < until and not stop.is_set() and not self._leaving.is_set():
             self._wake.wait(0.2)
@@ -399,5 +407,3 @@ def default_folder() -> Path:
     home = os.environ.get("XDG_STATE_HOME")
     root = Path(home) if home else Path("~/.local/state").expanduser()
     return root / "phantom-xray" / "jobs"
-
-
