@@ -230,7 +230,10 @@ def test_a_drive_that_fills_leaves_what_is_finished_and_room_lets_it_go_on(desig
         try:
             folder, command = mount / "set", [*COMMAND, str(file), str(mount / "set")]
             first = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-            while len(_acknowledged(folder)) < step and first.poll() is None:
+            ledger = folder / STATE / "ledger-00000-of-00001.sqlite"
+            while first.poll() is None and (
+                not ledger.exists() or len(_acknowledged(folder)) < step
+            ):
                 time.sleep(0.005)
             _fill(mount / "of-others")
             _, said = first.communicate()
