@@ -95,6 +95,15 @@ class Lighting(Asked):
     ] = False
 
 
+def light_arrays(lighting: Lighting, camera: Camera) -> tuple[Floats, Floats]:
+    """Return what kernels read: places (n, 4), see :func:`placed`, and colours (n, 3)."""
+    places, colors = np.zeros((len(lighting.lights), 4)), np.zeros((len(lighting.lights), 3))
+    for i, light in enumerate(lighting.lights):
+        places[i, :3], places[i, 3] = placed(light, camera)
+        colors[i] = np.array(light.color) * light.intensity
+    return places, colors
+
+
 def placed(light: DirectionalLight | PointLight, camera: Camera) -> tuple[Floats, float]:
     """Return where a light is in the world: (3,) and how much of it is a place.
 
