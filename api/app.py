@@ -11,17 +11,25 @@ from fastapi import FastAPI
 
 import phantom
 from api import documentation, problems
-from api.routes import documents, health, path_lengths, phantoms, radiographs, stereo_pairs
+from api.routes import documents, health, path_lengths, phantoms, radiographs, renders, stereo_pairs
 from api.security import KeyRequired, SafeHeaders
 from api.service import Service
 from api.settings import Settings
 from phantom.document import Document
 from phantom.requests.paths import PathLengthsRequest
 from phantom.requests.radiograph import RadiographRequest
+from phantom.requests.render import RenderRequest
 from phantom.requests.stereo import StereoRequest
 from phantom.tracing import warm
 
-BODIES = (problems.ProblemDetails, Document, RadiographRequest, StereoRequest, PathLengthsRequest)
+BODIES = (
+    problems.ProblemDetails,
+    Document,
+    RadiographRequest,
+    StereoRequest,
+    RenderRequest,
+    PathLengthsRequest,
+)
 
 
 @asynccontextmanager
@@ -43,7 +51,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=_warm,
     )
     service = Service.of(settings)
-    for part in (phantoms, radiographs, stereo_pairs, path_lengths, documents):
+    for part in (phantoms, radiographs, stereo_pairs, renders, path_lengths, documents):
         app.include_router(part.routes(service))
     app.include_router(health.routes())
     app.include_router(documentation.routes())

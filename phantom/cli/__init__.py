@@ -9,7 +9,7 @@ import gc
 
 import typer
 
-from phantom.cli import dataset, documents, library, radiograph, serve, stereo
+from phantom.cli import dataset, documents, library, radiograph, render, serve, stereo
 
 app = typer.Typer(
     name="phantom",
@@ -24,6 +24,7 @@ app.command("show")(library.show)
 app.command("validate")(documents.validate)
 app.command("radiograph")(radiograph.make)
 app.command("stereo")(stereo.make)
+app.command("render")(render.make)
 app.add_typer(dataset.app, name="dataset")
 app.command("serve")(serve.serve)
 

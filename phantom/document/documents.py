@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
-from phantom.document.base import Length, Model, Name, Point, Text, by_shape, told
+from phantom.document.base import Length, Model, Name, Point, Text, by_shape, refuse, told
 from phantom.document.solids import Solid
 from phantom.document.substances import Material
 
 Words = Annotated[str, Field(strict=True, max_length=1_000)]
+
+REGION_CODE = "AnatomicRegionSequence"
+"""The DICOM header (0008,2218) that a code of the anatomy may be for."""
+
+CODE_PARTS = frozenset({"value", "scheme", "meaning"})
 
 
 class Anatomy(Model):
@@ -21,8 +26,26 @@ class Anatomy(Model):
     )
     laterality: Annotated[Words | None, told("Laterality", "none", "Side, such as left.")] = None
     codes: Annotated[
-        dict[Name, Any], told("Codes", "none", "Codes for image headers, by header.")
+        dict[Name, Any],
+        told(
+            "Codes",
+            "none",
+            "Codes for image headers, by header; AnatomicRegionSequence, an object of value, scheme"
+            " and meaning, is DICOM's.",
+        ),
     ] = Field(default_factory=dict)
+
+    @field_validator("codes")
+    @classmethod
+    def _region_has_a_code(cls, codes: dict[str, Any]) -> dict[str, Any]:
+        code = codes.get(REGION_CODE)
+        parts = code if isinstance(code, dict) else {}
+        if code is not None and (
+            set(parts) != CODE_PARTS or not all(isinstance(part, str) for part in parts.values())
+        ):
+            message = f"expected an object of the texts {', '.join(sorted(CODE_PARTS))}"
+            refuse("wrong_shape", ((REGION_CODE,), message))
+        return codes
 
 
 class Finding(Model):

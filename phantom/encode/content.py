@@ -15,6 +15,12 @@ from phantom.encode.picture import Picture
 IMAGES: Final = ("signal", "transmission", "line_integral")
 """The quantities with one value a pixel, in the order of an OpenEXR's layers."""
 
+COLOR: Final = "color"
+"""The quantity of a picture in visible light: red, green and blue."""
+
+CHANNELS: Final = ("R", "G", "B")
+"""The layers of a colour in an OpenEXR, as programs expect them."""
+
 
 @dataclass(frozen=True, slots=True)
 class Content:
@@ -107,6 +113,10 @@ def everything(picture: Picture[Any], wanted: Wanted) -> Taken:
 
     Materials tell what there is to find; so a blind file has none of their layers.
     """
+    if wanted.quantity == COLOR:
+        values = picture.quantity(COLOR)
+        colors = {name: values[..., i] for i, name in enumerate(CHANNELS)}
+        return colors, {"holds": "numbers", "quantity": COLOR, "layers": list(colors)}
     layers: dict[str, NDArray[Any]] = {name: picture.quantity(name) for name in IMAGES}
     said: dict[str, Any] = {"holds": "numbers", "layers": list(layers)}
     if wanted.blind:

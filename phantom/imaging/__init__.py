@@ -26,6 +26,7 @@ from phantom.imaging.stereo import StereoPair, stereo_pair
 from phantom.imaging.truth import KINDS, LeafTruth, Truth
 from phantom.imaging.truth_trace import ground_truth
 from phantom.imaging.view import Detector, View
+from phantom.imaging.visibility import Visibility, visibility
 
 __all__ = [
     "IMAGES",
@@ -57,6 +58,7 @@ __all__ = [
     "StereoPair",
     "Truth",
     "View",
+    "Visibility",
     "attenuations_per_mm",
     "contrast_jnd",
     "covering",
@@ -69,4 +71,5 @@ __all__ = [
     "projection",
     "radiograph",
     "stereo_pair",
+    "visibility",
 ]

@@ -116,6 +116,21 @@ def screen(text: str, path: Path) -> Read:
     return dict(zip(names, map(scalar, parts), strict=True)), ()
 
 
+def names(text: str, path: Path) -> Read:
+    """Return NAME,NAME,… as an array; JSON stays as it is."""
+    if text.strip()[:1] == "[":
+        return scalar(text), ()
+    return [part.strip() for part in text.split(",") if part.strip()], ()
+
+
+def color(text: str, path: Path) -> Read:
+    """Return RED,GREEN,BLUE as an array, ``black`` and ``white`` as what they are; or JSON."""
+    known = {"black": [0.0, 0.0, 0.0], "white": [1.0, 1.0, 1.0]}
+    if text.strip() in known:
+        return known[text.strip()], ()
+    return (scalar(text) if text.strip()[:1] == "[" else list(map(scalar, text.split(",")))), ()
+
+
 FORMS: Final[Mapping[str, Callable[[str, Path], Read]]] = {
     "acquisition": optional,
     "filtration": filters,
@@ -126,5 +141,7 @@ FORMS: Final[Mapping[str, Callable[[str, Path], Read]]] = {
     "truth": kinds,
     "zero_parallax": plane,
     "screen": screen,
+    "hide": names,
+    "background": color,
 }
 """How the words with a way of their own are written; all others are :func:`plain`."""

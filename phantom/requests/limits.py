@@ -19,6 +19,9 @@ IMAGES_PER_EXPOSURE = 24
 MAPS_PER_LEAF = 2
 """Thickness and entry depth of each leaf, where it fills the picture."""
 
+NUMBERS_PER_COLOR = 13
+"""Light, coverage, and what stands between them and the levels of a file, of one pixel."""
+
 
 @dataclass(frozen=True, slots=True)
 class Limits:
@@ -27,9 +30,10 @@ class Limits:
     Attributes
     ----------
     pixels
-        Of one radiograph.
+        Of one radiograph, or one picture in visible light.
     exposure_rays
-        Of one radiograph: pixels, times the samples of each, times the points of the focal spot.
+        Of one radiograph: pixels, times the samples of each, times the points of the focal spot;
+        of one picture in visible light: pixels times samples.
     rays
         Of one path-length call.
     result_bytes
@@ -83,6 +87,19 @@ class Limits:
     def check_truth(self, columns: int, rows: int, leaves: int, images: int = 1) -> None:
         """Refuse ground truth of too many pixels times leaves, thickness and depth of each."""
         self._check_bytes("/truth", columns * rows * leaves * MAPS_PER_LEAF * images)
+
+    def check_render(self, columns: int, rows: int, samples: int) -> None:
+        """Refuse a picture in visible light of too many pixels, or of too many rays.
+
+        ``samples`` are those along a side of a pixel.
+        """
+        pixels = columns * rows
+        if pixels > self.pixels:
+            _refuse("/camera", f"found {columns} × {rows} pixels", f"{self.pixels} at most")
+        if pixels * samples**2 > self.exposure_rays:
+            found = f"found {columns} × {rows} pixels × {samples**2} samples"
+            _refuse("/samples_per_pixel", found, f"{self.exposure_rays} at most")
+        self._check_bytes("/camera", pixels * NUMBERS_PER_COLOR)
 
     def check_rays(self, rays: int, materials: int) -> None:
         """Refuse too many rays, or too many of them times materials."""

@@ -64,8 +64,27 @@ STEREO_WORDS: Mapping[str, tuple[str, ...]] = {
 }
 """The same for a pair."""
 
-WHOLE: Mapping[str, str] = {"view": "view", "acquisition": "acquisition"}
-"""Words that may be a JSON object, and the part of the request that it then is."""
+RENDER_WORDS: Mapping[str, tuple[str, ...]] = {
+    "view": ("camera", "preset"),
+    "azimuth_deg": ("camera", "azimuth_deg"),
+    "elevation_deg": ("camera", "elevation_deg"),
+    "parallel": ("camera", "parallel"),
+    "field_of_view_deg": ("camera", "field_of_view_deg"),
+    "zoom": ("camera", "zoom"),
+    "columns": ("camera", "columns"),
+    "rows": ("camera", "rows"),
+    "hide": ("hide",),
+    "samples_per_pixel": ("samples_per_pixel",),
+    "lighting": ("lighting",),
+    "shadows": ("lighting", "shadows"),
+    "background": ("background",),
+    "mode": ("tone", "mode"),
+    "bits": ("tone", "bits"),
+}
+"""The same for a picture in visible light."""
+
+WHOLE = frozenset({"view", "acquisition", "lighting"})
+"""Words that may be a JSON object, which is then the part of the request that they stand in."""
 
 
 def parameters(pairs: Iterable[tuple[str, str]]) -> dict[str, object]:
@@ -105,8 +124,8 @@ def request_tree(
 ) -> tuple[dict[str, object], tuple[Problem, ...]]:
     """Return the request that the words ask for, as it would stand in JSON, and what is wrong.
 
-    A ``view`` or an ``acquisition`` that is a JSON object is taken as it is, so that all of it can
-    be given; other words add to it. Some words have a form of their own, see
+    A word of :data:`WHOLE` that is a JSON object is taken as it is, so that all of it can be given;
+    other words add to it. Some words have a form of their own, see
     :mod:`phantom.requests.forms`. Words that are not known, or that give a field twice, are
     problems.
     """
@@ -122,7 +141,7 @@ def request_tree(
         problems += wrong
         if word in WHOLE and isinstance(value, dict):
             for name, part in value.items():
-                problems += _place(tree, (WHOLE[word], name), part)
+                problems += _place(tree, (path[0], name), part)
         else:
             problems += _place(tree, path, value)
     return tree, tuple(problems)

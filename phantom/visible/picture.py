@@ -74,11 +74,15 @@ class Picture:
             said["from"] = [float(values.min()), float(values.max())]
         return said
 
+    def geometry(self) -> dict[str, Any]:
+        """Return the camera, as plain JSON values."""
+        return self.camera.model_dump(mode="json", exclude_none=True)
+
     def metadata(self) -> dict[str, Any]:
         """Return what made the picture, as plain JSON values."""
         return {
             "style": self.style,
-            "camera": self.camera.model_dump(mode="json", exclude_none=True),
+            "camera": self.geometry(),
             "units": {COLOR: "1"},
             **self.told,
         }

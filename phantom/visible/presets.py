@@ -113,13 +113,18 @@ class CameraPreset(Asked):
         return self
 
     @property
+    def word(self) -> CameraName | None:
+        """The preset; None where angles say where the eye is."""
+        if self.azimuth_deg is not None or self.elevation_deg is not None:
+            return None
+        return self.preset or "three_quarter"
+
+    @property
     def angles_deg(self) -> tuple[float, float]:
         """Azimuth and elevation of the eye."""
-        usual = _ANGLES_DEG[self.preset or "three_quarter"]
-        if self.preset is None and (self.azimuth_deg is not None or self.elevation_deg is not None):
-            usual = (0.0, 0.0)
-        azimuth = usual[0] if self.azimuth_deg is None else self.azimuth_deg
-        return azimuth, usual[1] if self.elevation_deg is None else self.elevation_deg
+        if self.word is not None:
+            return _ANGLES_DEG[self.word]
+        return self.azimuth_deg or 0.0, self.elevation_deg or 0.0
 
     def camera(self, bounds: Floats) -> Camera:
         """Return the camera that sees all of some boxes.
@@ -182,5 +187,5 @@ def _pose(azimuth_deg: float, elevation_deg: float) -> tuple[Floats, Floats]:
 
 
 def _point(vector: Floats) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in vector)
+    x, y, z = (float(value) + 0.0 for value in vector)  # no -0
     return x, y, z

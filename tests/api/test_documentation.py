@@ -66,7 +66,7 @@ def test_the_words_of_a_query_are_described(client):
     schema = client.get("/openapi.json").json()
     get = schema["paths"]["/v1/radiographs/{name}"]["get"]
     described = {p["name"] for p in get["parameters"]}
-    assert set(WORDS) | {"name"} == described
+    assert set(WORDS) | {"name", "abnormality"} == described
 
 
 def test_every_call_has_one_address(client):
@@ -80,4 +80,6 @@ def test_every_call_has_one_address(client):
         "/v1/phantoms/{name}/document",
         "/v1/radiographs",
         "/v1/radiographs/{name}",
+        "/v1/renders",
+        "/v1/stereo-pairs",
     }

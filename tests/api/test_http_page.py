@@ -19,6 +19,8 @@ CURLS = re.findall(
 def test_the_page_has_its_examples():
     assert [address for address, _, _ in CURLS] == [
         "/v1/radiographs",
+        "/v1/renders",
+        "/v1/stereo-pairs",
         "/v1/path-lengths",
         "/v1/phantoms/step-wedge/document",
     ]

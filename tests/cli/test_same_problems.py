@@ -10,7 +10,7 @@ from fastapi.testclient import TestClient
 
 from api.app import create_app
 from api.settings import Settings
-from phantom.requests.words import STEREO_WORDS
+from phantom.requests.words import RENDER_WORDS, STEREO_WORDS
 
 SPHERE = '{"type": "sphere", "center": [0, 0, 0], "radius": 5, "material": "a"}'
 
@@ -123,6 +123,26 @@ PAIRS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+RENDERS: dict[str, dict[str, Any]] = {
+    "no such side": {"view": "sideways"},
+    "an eye in its target": {"view": {"eye": [1, 2, 3], "target": [1, 2, 3]}},
+    "an up along the line of sight": {"view": {"eye": [0, 0, 9], "target": [0, 0, 0]}},
+    "a side and an angle": {"view": "front", "azimuth_deg": 10},
+    "an eye and a zoom": {"view": {"eye": [0, 0, 9], "target": [0, 0, 0]}, "zoom": 2},
+    "a field of view of parallel lines": {"parallel": True, "field_of_view_deg": 10},
+    "no pixels": {"columns": 0, "rows": -1},
+    "too many pixels": {"columns": 16384, "rows": 16384},
+    "too many samples": {"samples_per_pixel": 9},
+    "an unknown name to hide": {"hide": ["bone", "ball"]},
+    "a light of no kind": {"lighting": {"lights": [{"type": "lamp"}]}},
+    "a light from nowhere": {
+        "lighting": {"lights": [{"type": "directional", "to_light": [0, 0, 0]}]}
+    },
+    "a colour beyond white": {"background": [0, 0, 2]},
+    "an unknown tone": {"mode": "film", "bits": 12},
+}  # fmt: skip
+
+
 @pytest.fixture(scope="module")
 def client() -> TestClient:
     return TestClient(create_app(Settings()), raise_server_exceptions=False)
@@ -182,6 +202,30 @@ def test_of_a_pair(run, client, words: dict[str, Any]):
     there = client.post("/v1/stereo-pairs", json=body)
     output = "never.zip" if archived else "never.png"
     here = run("stereo", "sphere", *options, "--json", "-o", output)
+    assert (there.status_code, here.exit_code) == (422, 2), here.stderr
+    problems = told(json.loads(here.stderr)["problems"])
+    assert problems
+    assert problems == told(there.json()["problems"])
+
+
+@pytest.mark.parametrize("words", RENDERS.values(), ids=RENDERS.keys())
+def test_of_a_render(run, client, words: dict[str, Any]):
+    """The command's words, and the JSON of the service."""
+    body: dict[str, Any] = {"phantom": {"name": "sphere"}}
+    for word, value in sorted(words.items(), key=lambda pair: pair[0] != "view"):
+        *sections, name = RENDER_WORDS[word]
+        if word == "view" and isinstance(value, dict):
+            body["camera"] = dict(value)
+            continue
+        part = body
+        for section in sections:
+            part = part.setdefault(section, {})
+        part[name] = value
+    texts = {k: v if isinstance(v, str) else json.dumps(v) for k, v in words.items()}
+    options = [f"--{k.replace('_', '-')}={v}" for k, v in texts.items() if k != "parallel"]
+    options += ["--parallel"] * ("parallel" in words)
+    there = client.post("/v1/renders", json=body)
+    here = run("render", "sphere", *options, "--json", "-o", "never.png")
     assert (there.status_code, here.exit_code) == (422, 2), here.stderr
     problems = told(json.loads(here.stderr)["problems"])
     assert problems

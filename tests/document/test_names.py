@@ -136,3 +136,13 @@ def test_a_finding_names_leaves_that_are_there(sphere: Any, written: Any, proble
 
 def test_a_label_is_the_names_from_the_root() -> None:
     assert phantom.document.label_of(["leg", None, "femur"]) == "leg/femur"
+
+
+@pytest.mark.parametrize("code", ["72696002", {"value": "72696002"}, {"value": 1, "scheme": "SCT"}])
+def test_a_header_code_has_a_value_a_scheme_and_a_meaning(
+    sphere: Any, written: Any, problems: Judge, code: Any
+) -> None:
+    anatomy = {"codes": {"AnatomicRegionSequence": code, "mine": 5}}
+    [problem] = problems(written(sphere(), anatomy=anatomy))
+    assert problem.path == "/anatomy/codes/AnatomicRegionSequence"
+    assert "meaning, scheme, value" in problem.message

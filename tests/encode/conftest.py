@@ -23,6 +23,7 @@ class Shot:
 
     region: str | None = "knee"
     laterality: str | None = "left"
+    codes: dict[str, Any] = field(default_factory=dict)
     view: dict[str, Any] = field(
         default_factory=lambda: {
             "source": SOURCE,
@@ -71,7 +72,11 @@ class Shot:
                 "title": "",
                 "document_sha256": "5ec2e7" * 10,
                 "material_names": list(NAMES),
-                "anatomy": {"region": self.region, "laterality": self.laterality, "codes": {}},
+                "anatomy": {
+                    "region": self.region,
+                    "laterality": self.laterality,
+                    "codes": self.codes,
+                },
             },
             "units": {"line_integral": "1", "transmission": "1", "signal": "1"},
             "view": self.view,

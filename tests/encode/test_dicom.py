@@ -51,10 +51,12 @@ PARALLEL = {
         "pitch_mm": [1 / 3, 1e-3 / 7],
     },
 }
+TEMPORAL = {"value": "60911003", "scheme": "SCT", "meaning": "Temporal bone"}
 SUBJECTS: dict[str, dict[str, Any]] = {
     "knee": {},
     "knee of a tube": {"beam": {"kvp": 65.0, "anode": "tungsten", "filtration_mm": {}}},
     "test object in a parallel beam": {"region": None, "laterality": None, "view": PARALLEL},
+    "part with a code": {"region": "left antenna", "codes": {"AnatomicRegionSequence": TEMPORAL}},
     "unknown part": {"region": "left antenna", "laterality": "upper"},
     "breast": {"region": "breast", "view": BREAST_VIEW, "beam": TUBE},
     "breast from the front": {"region": "breast"},
@@ -258,3 +260,10 @@ def test_all_metadata_travels_inside(shot) -> None:
     told = json.loads(found.private_block(0x0099, "PHANTOM-XRAY")[0x01].value)
     assert told.pop("file")["codes_per_unit"] == 8192
     assert told == picture.metadata()
+
+
+def test_a_code_of_the_document_stands_in_the_header(shot):
+    found = read(encode(shot(**SUBJECTS["part with a code"]), format="dicom").data)
+    (item,) = found.AnatomicRegionSequence
+    assert (item.CodeValue, item.CodingSchemeDesignator) == ("60911003", "SCT")
+    assert item.CodeMeaning == "Temporal bone"

@@ -66,12 +66,21 @@ def body_part(region: str | None) -> BodyPart | None:
 
 def coded(group: int, concept: str) -> Dataset:
     """Return the item of a code sequence for a concept of a context group."""
-    from pydicom import Dataset
     from pydicom.sr.codedict import codes
 
     code = getattr(getattr(codes, f"cid{group}"), concept)
+    return code_item(code.value, code.scheme_designator, code.meaning)
+
+
+def code_item(value: str, scheme: str, meaning: str) -> Dataset:
+    """Return the item of a code sequence; Code Value and Scheme have 16 characters at most."""
+    from pydicom import Dataset
+
     item = Dataset()
-    item.CodeValue = code.value
-    item.CodingSchemeDesignator = code.scheme_designator
-    item.CodeMeaning = code.meaning
+    if len(value) > 16:
+        item.LongCodeValue = value
+    else:
+        item.CodeValue = value
+    item.CodingSchemeDesignator = scheme[:16]
+    item.CodeMeaning = meaning[:64]
     return item

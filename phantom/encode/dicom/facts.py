@@ -30,8 +30,9 @@ class Facts:
         From the source to the detector's centre; None for a parallel beam.
     magnification
         Of the isocentre; None where it is not known.
-    region, laterality
-        The body part, and ``R``, ``L`` or None.
+    region, region_code, laterality
+        The body part, its code (value, scheme, meaning) where the document gives one, and ``R``,
+        ``L`` or None.
     name, document_sha256
         Of the phantom.
     software, version
@@ -49,6 +50,7 @@ class Facts:
     source_detector_mm: float | None
     magnification: float | None
     region: str | None
+    region_code: tuple[str, str, str] | None
     laterality: str | None
     name: str
     document_sha256: str
@@ -86,6 +88,7 @@ def facts(metadata: Mapping[str, Any]) -> Facts:
         source_detector_mm=distance,
         magnification=metadata.get("magnification"),
         region=_lower(anatomy.get("region")),
+        region_code=_code((anatomy.get("codes") or {}).get("AnatomicRegionSequence")),
         laterality={"right": "R", "r": "R", "left": "L", "l": "L"}.get(side),
         name=str(phantom["name"]),
         document_sha256=phantom["document_sha256"],
@@ -96,6 +99,10 @@ def facts(metadata: Mapping[str, Any]) -> Facts:
         filtration_mm=beam.get("filtration_mm") or {},
         mas=(metadata.get("acquisition") or {}).get("mas"),
     )
+
+
+def _code(told: Mapping[str, str] | None) -> tuple[str, str, str] | None:
+    return None if told is None else (told["value"], told["scheme"], told["meaning"])
 
 
 def _central_ray(view: Mapping[str, Any]) -> NDArray[np.float64]:

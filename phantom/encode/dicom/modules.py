@@ -14,6 +14,7 @@ from phantom.encode.dicom.anatomy import (
     MAMMOGRAPHY_VIEW,
     VIEW_POSITIONS,
     body_part,
+    code_item,
     coded,
 )
 from phantom.encode.dicom.facts import Facts
@@ -162,6 +163,8 @@ def anatomy(dataset: Dataset, facts: Facts) -> None:
     """Say what was X-rayed, and from where: DX Anatomy Imaged, Mammography Image, views."""
     part = body_part(facts.region)
     dataset.AnatomicRegionSequence = [] if part is None else [coded(DX_ANATOMY, part.concept)]
+    if facts.region_code is not None:
+        dataset.AnatomicRegionSequence = [code_item(*facts.region_code)]
     if part is not None:
         dataset.BodyPartExamined = part.examined
     if facts.is_mammogram:
