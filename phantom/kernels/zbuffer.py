@@ -3,9 +3,10 @@
 The ray of pixel (row i, column j) is ``o + t d`` with o and d linear in i and j. It crosses a
 triangle where the three edge functions ``E_ab = d . (a x b) - o . (d x (a - b))``, linear in i and
 j too, have one sign (M. Olano and T. Greer, *Triangle Scan Conversion using 2D Homogeneous
-Coordinates*, Graphics Hardware 1997): no triangle need be cut where it passes behind the eye. Two triangles see
-the edge they share with exactly opposite values, and a 0 is decided by the slopes, as if the raster
-were shifted by next to nothing: so a ray enters a closed mesh as often as it leaves it.
+Coordinates*, Graphics Hardware 1997): no triangle need be cut where it passes behind the eye. Two
+triangles see the edge they share with exactly opposite values, and a 0 is decided by the slopes, as
+if the raster were shifted by next to nothing: so a ray enters a closed mesh as often as it leaves
+it.
 """
 
 from __future__ import annotations

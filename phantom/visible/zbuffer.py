@@ -167,10 +167,10 @@ def _fields(corners: Floats, camera: Camera, samples: int) -> Ints:
     away = corners - np.asarray(camera.eye)
     depth = dots(away, forward)
     scale = np.full(depth.shape, camera.pitch)
-    behind = np.zeros(len(corners), dtype=np.bool_)
+    behind: NDArray[np.bool_] = np.zeros(len(corners), dtype=np.bool_)
     if camera.parallel_width_mm is None:
         near = depth <= _NEAR
-        behind = near.any(axis=1)
+        behind = np.asarray(near.any(axis=1))
         scale = np.where(near, 1.0, depth) * camera.pitch
     found = np.empty((len(corners), 4), dtype=np.int64)
     for column, (axis, size) in enumerate(((down, camera.rows), (right, camera.columns))):
