@@ -31,10 +31,17 @@ STEREO = (
     " --layout cross_eyed -o docs/images/knee-1993-cross-eyed.png",
 )
 
+DARK = "--columns 320 --rows 440 --shadows --background 0.02,0.02,0.03"
+VISIBLE = (
+    f"phantom render knee {DARK} -o docs/images/seen-knee.png",
+    f"phantom render knee --hide skin,fat,muscle {DARK} -o docs/images/seen-knee-bones.png",
+    f"phantom render knee-1993 --view left_lateral {DARK} -o docs/images/seen-knee-1993.png",
+)
+
 
 def main() -> None:
     Path("docs/images").mkdir(exist_ok=True)
-    for command in (*COMMANDS, *STEREO, *GALLERY):
+    for command in (*COMMANDS, *STEREO, *VISIBLE, *GALLERY):
         print(command)
         subprocess.run(shlex.split(command), check=True)
 

@@ -71,8 +71,8 @@ class PointLight(Model):
 Light = Annotated[DirectionalLight | PointLight, by_type("directional", "point")]
 
 HEAD_LIGHTS: Final = (
-    DirectionalLight(to_light=(-0.6, 0.75, 0.85), intensity=0.95, fixed_to="camera"),
-    DirectionalLight(to_light=(0.9, 0.0, 0.5), intensity=0.2, fixed_to="camera"),
+    DirectionalLight(to_light=(-0.6, 0.75, 0.85), intensity=1.15, fixed_to="camera"),
+    DirectionalLight(to_light=(0.9, 0.0, 0.5), intensity=0.3, fixed_to="camera"),
 )
 """A lamp over the viewer's left shoulder and a weak one from the right that opens the shadows."""
 
