@@ -58,6 +58,7 @@ if TYPE_CHECKING:
         Tone,
         preset_camera,
         render,
+        render_pair,
     )
 
     __version__: str
@@ -107,6 +108,7 @@ __all__ = [
     "preset_view",
     "radiograph",
     "render",
+    "render_pair",
     "stereo_pair",
 ]
 
@@ -159,6 +161,7 @@ _HOMES = {
         "Tone",
         "preset_camera",
         "render",
+    "render_pair",
     ),
 }
 _HOME = {name: home for home, found in _HOMES.items() for name in found}

@@ -209,6 +209,17 @@ def ellipsoid(name: str, center: Point, semi_axes: Point, material: str | None =
     )
 
 
+def is_left(solid: Ellipsoid) -> bool:
+    """Return whether each cut by itself leaves something of an ellipsoid."""
+
+    def depth(cut: Cut) -> float:
+        away = sum(n * (c - p) for n, c, p in zip(cut.normal, solid.center, cut.point, strict=True))
+        reach = math.hypot(*(n * a for n, a in zip(cut.normal, solid.semi_axes, strict=True)))
+        return (reach - away) / math.hypot(*cut.normal)
+
+    return all(depth(cut) > 0.01 for cut in solid.cuts)
+
+
 def union(*solids: Solid) -> Solid:
     """Join solids, the first before the later where they share space; one alone is itself."""
     return solids[0] if len(solids) == 1 else Union(type="union", solids=solids)

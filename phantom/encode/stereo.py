@@ -2,7 +2,8 @@
 
 What is shown to a person comes as one picture: side by side (the left eye's at the left, for a
 viewer with lenses or a screen of its own for each eye), cross-eyed (the other way round), or as an
-anaglyph (the left eye's in red, the right one's in green and blue, for red and cyan glasses).
+anaglyph (the left eye's in red, the right one's in green and blue, for red and cyan glasses; of
+colours each its own channels).
 """
 
 from __future__ import annotations
@@ -80,6 +81,8 @@ class InOne:
 
     def _put(self, images: list[NDArray[Any]]) -> NDArray[Any]:
         left, right = images
+        if self.layout == "anaglyph" and left.ndim == 3:
+            return np.concatenate([left[..., :1], right[..., 1:]], axis=-1)
         if self.layout == "anaglyph":
             return np.stack([left, right, right], axis=-1)
         order = (left, right) if self.layout == "side_by_side" else (right, left)
@@ -150,13 +153,13 @@ def encode_pair(
     Parameters
     ----------
     pair
-        Such as a ``phantom.imaging.StereoPair``.
+        Such as a ``phantom.imaging.StereoPair`` or a ``phantom.visible.PicturePair``.
     quantity, presentation, format, blind
         As in :func:`phantom.encode.encode`. Each file of ``files`` has this format; of DICOM there
         is a third, ``stereo.dcm``, that says which image is which eye's.
     layout
         One of :data:`LAYOUTS`; by default the first that the format can hold. ``all`` has every
-        layout, in PNG, OpenEXR and DICOM, and goes into an archive.
+        layout, in PNG, OpenEXR and, of radiographs, DICOM, and goes into an archive.
 
     Raises
     ------
@@ -176,7 +179,7 @@ def encode_pair(
     if layout == "files":
         return _files(pair, quantity, presentation, chosen, blind=blind)
     if layout == "two_view":
-        return {"pair.exr": _views(pair, blind=blind)}
+        return {"pair.exr": _views(pair, quantity, blind=blind)}
     name = f"{layout.replace('_', '-')}{chosen.extensions[0]}"
     return {name: encode(InOne(pair, layout), quantity, presentation, chosen, blind=blind)}
 
@@ -211,6 +214,8 @@ def _everything(
         for layout in IN_ONE:
             found |= made("png", layout)
     found |= made("exr", "files" if single else "two_view")
+    if quantity not in dicom.quantities:
+        return found
     return found | _files(pair, quantity, presentation, dicom, blind=blind)
 
 
@@ -243,9 +248,9 @@ def _files(
     return found
 
 
-def _views(pair: Pair[Any], *, blind: bool) -> Encoded:
+def _views(pair: Pair[Any], quantity: str, *, blind: bool) -> Encoded:
     """Return the two-view OpenEXR: every quantity of both eyes."""
-    wanted = Wanted("signal", None, blind)
+    wanted = Wanted(quantity, None, blind)
     views: dict[str, dict[str, NDArray[Any]]] = {}
     file: dict[str, Any] = {}
     for eye, picture in pair.pictures.items():

@@ -4,11 +4,12 @@ Nothing here knows what makes the pictures; a view's projection matrices are all
 """
 
 from phantom.stereo.comfort import Comfort, comfort
-from phantom.stereo.disparity import Disparity, disparities, structures
+from phantom.stereo.disparity import Disparity, disparities, disparity_of_all, structures
 from phantom.stereo.epipolar import fundamental_matrix
 from phantom.stereo.screen import Screen
 from phantom.stereo.settings import Stereo, ZeroPlane
-from phantom.stereo.spacing import largest
+from phantom.stereo.spacing import largest, separation
+from phantom.stereo.telling import stereo_told
 
 __all__ = [
     "Comfort",
@@ -18,7 +19,10 @@ __all__ = [
     "ZeroPlane",
     "comfort",
     "disparities",
+    "disparity_of_all",
     "fundamental_matrix",
     "largest",
+    "separation",
+    "stereo_told",
     "structures",
 ]

@@ -12,7 +12,8 @@ and at one place between, where its derivative is 0. So the twelve edges of a bo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -76,6 +77,11 @@ class Disparity:
     degrees: tuple[float, float] | None
     vertical_px: float | None
 
+    @property
+    def worst_deg(self) -> float:
+        """The greatest on either side of the screen; infinite where there is none."""
+        return math.inf if self.degrees is None else max(map(abs, self.degrees))
+
     def told(self) -> dict[str, Any]:
         """Return it as plain JSON values."""
         return {
@@ -87,11 +93,16 @@ class Disparity:
         }
 
 
-def surfacing_boxes(phantom: Phantom) -> dict[int, Floats]:
-    """Return the (2, 3) box of every leaf that can surface, inside the box of the whole."""
+def surfacing_boxes(phantom: Phantom, shown: Container[int] | None = None) -> dict[int, Floats]:
+    """Return the (2, 3) box of every leaf that can surface, inside the box of the whole.
+
+    ``shown`` has the numbers of the leaves that count; by default all do.
+    """
     least, greatest = np.asarray(phantom.bounds, dtype=np.float64)
     found = {}
     for leaf in phantom.surfacing_leaves:
+        if shown is not None and leaf not in shown:
+            continue
         low, high = np.asarray(phantom.leaf_bounds[leaf], dtype=np.float64)
         low, high = np.maximum(low, least), np.minimum(high, greatest)
         if np.all(low <= high):
@@ -99,13 +110,13 @@ def surfacing_boxes(phantom: Phantom) -> dict[int, Floats]:
     return found
 
 
-def structures(phantom: Phantom) -> tuple[Structure, ...]:
+def structures(phantom: Phantom, shown: Container[int] | None = None) -> tuple[Structure, ...]:
     """Return the named leaves, the findings and the landmarks of a phantom, in this order.
 
     A finding is where its leaves are; without any in the solid it is its centre, and without that
-    it is left out.
+    it is left out. ``shown`` has the numbers of the leaves that count; by default all do.
     """
-    boxes = surfacing_boxes(phantom)
+    boxes = surfacing_boxes(phantom, shown)
     named = [leaf for leaf in phantom.named_leaves if leaf in boxes]
     found = [Structure("leaf", phantom.leaf_names[i], boxes[i][np.newaxis]) for i in named]
     for finding in phantom.document.findings:
@@ -147,6 +158,19 @@ def disparities(
             Disparity(structure.kind, structure.name, across, (low, high), float(vertical))
         )
     return tuple(found)
+
+
+def disparity_of_all(
+    phantom: Phantom,
+    left: Floats,
+    right: Floats,
+    screen: Screen,
+    shown: Container[int] | None = None,
+) -> Disparity:
+    """Return the disparity of everything that can be seen, named or not."""
+    boxes = [*surfacing_boxes(phantom, shown).values()] or [np.asarray(phantom.bounds)]
+    whole = Structure("whole", "", np.stack(boxes))
+    return disparities([whole], left, right, screen)[0]
 
 
 def differences(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Final
 
 from phantom.stereo.comfort import COMFORTABLE_DEG
+from phantom.stereo.settings import USUAL, Stereo
 
 MAX_ANGLE_DEG: Final = 30.0
 """The greatest angle between the eyes that is thought of: the two pictures of a thin phantom would
@@ -15,6 +17,34 @@ STEP: Final = {"shift": 0.1, "rotate": 0.01}
 """What is rounded down to: mm of the baseline, degrees of the angle."""
 
 _HALVINGS: Final = 50
+
+
+def separation(
+    stereo: Stereo, worst_deg: Callable[[float], float], zero_depth_mm: float | None
+) -> float:
+    """Return the baseline in mm, or the angle in degrees, of a pair; 0 for a mono arm.
+
+    Parameters
+    ----------
+    stereo
+        What was asked.
+    worst_deg
+        Greatest disparity of a separation, as for :func:`largest`.
+    zero_depth_mm
+        Depth of what is seen in the screen, for a shift.
+    """
+    asked = stereo.separation
+    if stereo.mono is not None:
+        return 0.0
+    if isinstance(asked, float):
+        return asked
+    usual = USUAL[stereo.method]
+    if asked is None and worst_deg(usual) <= COMFORTABLE_DEG:
+        return usual
+    limit = MAX_ANGLE_DEG
+    if stereo.method == "shift" and zero_depth_mm is not None:
+        limit = 2.0 * zero_depth_mm * math.tan(math.radians(limit / 2))
+    return largest(worst_deg, limit if asked == "auto" else usual, STEP[stereo.method])
 
 
 def largest(worst_deg: Callable[[float], float], limit: float, step: float) -> float:

@@ -39,7 +39,7 @@ def shown_leaves(phantom: Phantom, hide: Sequence[str] = ()) -> Flags:
         if name in materials:
             found += np.flatnonzero(phantom.leaf_materials == materials.index(name)).tolist()
         elif not found:
-            known = listed([*materials, *(labels[k] for k in phantom.named_leaves)])
+            known = listed({*materials, *(labels[k] for k in phantom.named_leaves)})
             message = f"found {quoted(name)}; expected a material or a leaf's label: {known}"
             problems.append(Problem(f"/hide/{i}", "unknown_name", message))
         shown[found] = 0

@@ -2,6 +2,8 @@
 
 from phantom.visible.camera import Camera
 from phantom.visible.lights import DirectionalLight, Lighting, PointLight
+from phantom.visible.pair import PicturePair
+from phantom.visible.pairing import render_pair
 from phantom.visible.picture import Picture
 from phantom.visible.presets import CAMERA_NAMES, CameraPreset, preset_camera
 from phantom.visible.rendering import render
@@ -14,8 +16,10 @@ __all__ = [
     "DirectionalLight",
     "Lighting",
     "Picture",
+    "PicturePair",
     "PointLight",
     "Tone",
     "preset_camera",
     "render",
+    "render_pair",
 ]

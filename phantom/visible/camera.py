@@ -57,6 +57,15 @@ class Camera(Asked):
     ] = None
     columns: Annotated[Side, told("Columns", "pixels", "Pixels in a row.")] = DEFAULT_PIXELS
     rows: Annotated[Side, told("Rows", "pixels", "Pixels in a column.")] = DEFAULT_PIXELS
+    shift_px: Annotated[
+        Number,
+        told(
+            "Shift",
+            "pixels",
+            "How far the picture's window is slid to the right in its plane: for the eyes of a"
+            " pair, whose lines of sight stay parallel.",
+        ),
+    ] = 0.0
 
     @field_validator("target")
     @classmethod
@@ -118,7 +127,8 @@ class Camera(Asked):
             Where in the picture, in pixels; they are broadcast against each other.
         """
         right, down, _ = self.axes
-        across = (np.asarray(columns, dtype=np.float64) - (self.columns - 1) / 2) * self.pitch
+        middle = (self.columns - 1) / 2 - self.shift_px
+        across = (np.asarray(columns, dtype=np.float64) - middle) * self.pitch
         below = (np.asarray(rows, dtype=np.float64) - (self.rows - 1) / 2) * self.pitch
         across, below = np.broadcast_arrays(across, below)
         return across[..., None] * right + below[..., None] * down
@@ -159,6 +169,22 @@ class Camera(Asked):
         scale = np.full(depth.shape, self.pitch)
         if self.parallel_width_mm is None:
             scale = np.where(depth > 0.0, depth * self.pitch, np.nan)
-        column = dots(ways, right) / scale + (self.columns - 1) / 2
+        column = dots(ways, right) / scale + (self.columns - 1) / 2 - self.shift_px
         row = dots(ways, down) / scale + (self.rows - 1) / 2
         return np.stack([column, row], axis=-1), depth
+
+    @property
+    def matrix(self) -> Floats:
+        """(3, 4) world mm to homogeneous (column, row); the third is the depth, or 1 if parallel.
+
+        As the projection matrix of an X-ray view has it (docs/methods/geometry.md).
+        """
+        right, down, forward = self.axes
+        middle = np.array([(self.columns - 1) / 2 - self.shift_px, (self.rows - 1) / 2])
+        across = np.stack([right, down]) / self.pitch
+        eye = np.asarray(self.eye, dtype=np.float64)
+        if self.parallel_width_mm is not None:
+            rows = np.column_stack([across, middle - across @ eye])
+            return np.vstack([rows, [0.0, 0.0, 0.0, 1.0]])
+        turned = np.vstack([across + np.outer(middle, forward), forward])
+        return np.column_stack([turned, -turned @ eye])

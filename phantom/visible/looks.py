@@ -1,8 +1,8 @@
 """How each leaf looks: as the document says, else as its material does.
 
-Colours are given as sRGB and kept as linear light. A material is known by the reference tissue it
-is, else by a word in its name (``bone``, ``soft_tissue``, ``steel``); any other gets a colour by
-its place in the document, so that neighbours differ.
+Colours are given as sRGB and kept as linear light. A material is known by a word in its name
+(``bone``, ``soft tissue``, ``steel``), else in the name of its reference; any other gets a colour
+by its place in the document, so that neighbours differ.
 """
 
 from __future__ import annotations
@@ -40,6 +40,7 @@ KINDS: Final = (
     Kind("spongiosa cancellous trabecular", "#e3cfa4", _MATT),
     Kind("bone cortical cortex hydroxyapatite calcium calcification stone", "#eee3cb", _WAXY),
     Kind("cartilage meniscus", "#c9dfe6", _MOIST),
+    Kind("tendon ligament", "#e6dfd0", _MOIST),
     Kind("muscle", "#b0564b", _MOIST),
     Kind("skin", "#e6bb9f", _WAXY),
     Kind("adipose fat", "#f0d589", _WAXY),
@@ -80,7 +81,7 @@ def looks(phantom: Phantom) -> Floats:
 
 def _usual(name: str, material: doc.Material, place: int) -> tuple[float, ...]:
     reference = material.reference if isinstance(material, doc.ReferenceMaterial) else ""
-    for text in (reference, name):
+    for text in (name, reference):
         spoken = set(re.split(r"[^a-z]+", text.lower()))
         for kind in KINDS:
             if spoken & set(kind.words.split()):

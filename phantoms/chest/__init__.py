@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from phantom.library import Entry, Technique
+from phantoms.chest.abnormalities import KINDS
 from phantoms.chest.document import SUMMARY, build
 from phantoms.chest.parameters import Parameters, of_person
 from phantoms.chest.sources import SOURCES
@@ -30,5 +31,6 @@ entry = Entry(
     views=("pa", "left_lateral"),
     technique=_PA,
     techniques={"left_lateral": _LATERAL},
+    abnormalities=KINDS,
     of_person=of_person,
 )

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantoms.chest.frame import Frame
+from phantoms.chest.spine import spine_y
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline, PchipInterpolator
@@ -52,11 +53,11 @@ _WALL: Final = (
     (-20.0, 137.5, -88.0, 90.5),
     (20.0, 131.5, -74.5, 90.0),
     (50.0, 122.5, -62.0, 87.0),
-    (75.0, 109.5, -45.0, 81.0),
-    (95.0, 92.0, -24.0, 73.0),
-    (108.0, 74.0, -5.0, 65.0),
-    (118.0, 54.0, 12.0, 57.0),
-    (126.0, 28.0, 24.0, 48.0),
+    (75.0, 109.5, -45.0, 79.5),
+    (95.0, 92.0, -24.0, 70.0),
+    (108.0, 74.0, -5.0, 60.5),
+    (118.0, 54.0, 12.0, 52.0),
+    (126.0, 28.0, 24.0, 44.0),
 )
 # Where the front end of a rib is: its distance from the middle and its height, drawn.
 _FRONT_ENDS: Final = {
@@ -71,16 +72,16 @@ _FRONT_ENDS: Final = {
     10: (127.0, -157.0),
 }
 _HEADS: Final = {
-    1: 124.0, 2: 115.5, 3: 95.5, 4: 75.5, 5: 55.0, 6: 34.0, 7: 11.5, 8: -12.0, 9: -37.0,
+    1: 124.0, 2: 113.5, 3: 95.5, 4: 75.5, 5: 55.0, 6: 34.0, 7: 11.5, 8: -12.0, 9: -37.0,
     10: -66.0, 11: -97.0, 12: -127.0,
 }  # fmt: skip
 # The first rib is drawn by points: it lies flat over the apex.
 _FIRST: Final = (
-    (19.0, 38.0, 124.0),
-    (30.0, 46.0, 124.5),
-    (44.0, 47.0, 121.5),
-    (57.0, 36.0, 116.0),
-    (65.0, 18.0, 108.5),
+    (19.0, 38.0, 125.0),
+    (31.0, 45.0, 126.0),
+    (45.0, 46.0, 124.0),
+    (58.0, 35.0, 118.5),
+    (66.0, 17.0, 110.5),
     (66.0, -3.0, 99.5),
     (58.0, -24.0, 90.5),
     (45.0, -40.0, 83.5),
@@ -88,7 +89,11 @@ _FIRST: Final = (
 )
 # Of the ribs that end free: the part of the outline they reach, and how far they sink.
 _FREE: Final = {11: (0.52, 62.0), 12: (0.30, 38.0)}
-NECK_X_MM: Final = 33.0
+_HEAD: Final = (19.5, 8.5, 0.0)
+_NECK: Final = (33.5, 18.5, 0.5)
+"""From the middle of the spine at a rib's height: its head, and where it passes a transverse
+process."""
+ON_WALL_X_MM: Final = 51.0
 """From the middle to where a rib comes on to the surface of the wall."""
 
 
@@ -161,7 +166,7 @@ class Cage:
         if number == 1:
             return self._first()
         height = _HEADS[number] * self.frame.z
-        start = self.turn_at(NECK_X_MM * self.frame.x, height, front=False)
+        start = self.turn_at(ON_WALL_X_MM * self.frame.x, height, front=False)
         if number in _FREE:
             share, drop = _FREE[number]
             end, drop = start + share * (0.5 - start), drop * self.frame.z
@@ -180,9 +185,10 @@ class Cage:
         heights = height - drop * sunk
         points = [self.point(t, h) for t, h in zip(turns, heights, strict=True)]
         normals = [self.normal(t, h) for t, h in zip(turns, heights, strict=True)]
-        first = points[0]
-        head = first + np.array([-14.0 * self.frame.x, -8.0, -0.5])
-        return RibLine(np.array([head, *points]), np.array([normals[0], *normals]))
+        z = _HEADS[number]
+        middle = np.array(self.frame.at(0.0, spine_y(z), z))
+        ends = [middle + self.frame.bone * np.array(place) for place in (_HEAD, _NECK)]
+        return RibLine(np.array([*ends, *points]), np.array([normals[0], normals[0], *normals]))
 
     def _first(self) -> RibLine:
         points = np.array(self.frame.path(_FIRST))

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from phantom.document import Anatomy, Document, Instance, Material, ReferenceMaterial, Solid
+from phantom.document import Anatomy, Document, Instance, Material, Point, ReferenceMaterial, Solid
 from phantom.library import Abnormality
 from phantoms.chest import body, girdle, lungs, mediastinum, ribs, spine, vessels
 from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
 from phantoms.chest.parameters import MODEL_HEIGHT_CM, Parameters, sizes
+from phantoms.chest.ribs import SIDES
 from phantoms.chest.sources import SOURCES
+from phantoms.chest.wrong import SITES, Fits, changes
 from phantoms.parts import layered, named, union
+from phantoms.people import cortical_density_g_cm3, spongiosa_density_g_cm3
 
 SUMMARY = (
     "A chest in deep breath: ribs, breastbone, spine and shoulder girdle, lungs with their vessels,"
@@ -21,22 +24,20 @@ SUMMARY = (
 
 def materials(parameters: Parameters) -> dict[str, Material]:
     """Return the materials; bone is less dense with age."""
-    p = parameters
-    older = max(p.age_years - 30.0, 0.0) / 50.0
-    loss = 0.50 if p.sex == "male" else 0.58
-    spongiosa = 1.0 + 0.18 * (1.0 - loss * min(older, 1.2))
+    person = parameters.person
 
     def like(reference: str, density: float | None = None) -> ReferenceMaterial:
         return ReferenceMaterial(reference=reference, density_g_cm3=density)
 
-    cortical = 1.92 * (1.0 - (0.10 if p.sex == "male" else 0.14) * min(older, 1.2))
+    cortical = cortical_density_g_cm3(person)
+    spongiosa = spongiosa_density_g_cm3(person, central=True)
     return {
         "skin": like("skin_icru44"),
         "fat": like("adipose_icru44"),
         "gland": like("breast_gland_icru44"),
         "muscle": like("muscle_icru44"),
         "soft_tissue": like("soft_tissue_icru44"),
-        "lung": like("lung_icru44", p.lung_density_g_cm3),
+        "lung": like("lung_icru44", parameters.lung_density_g_cm3),
         "blood": like("blood_icru44"),
         "air": like("air"),
         "cartilage": like("cartilage_icru44"),
@@ -55,52 +56,95 @@ def frame_of(parameters: Parameters) -> Frame:
 
 
 def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> Document:
-    """Return the chest of a person."""
+    """Return the chest of a person, with what is wrong with it.
+
+    Raises
+    ------
+    InvalidInputError
+        An abnormality does not fit, with paths under ``/abnormalities/i``.
+    """
     frame = frame_of(parameters)
     cage = Cage(frame)
-    sides = ("right", "left")
-    definitions: dict[str, Solid] = {
-        **ribs.definitions(cage),
-        "cartilages": union(*(ribs.cartilage(cage, n) for n in range(1, 11))),
-        **body.definitions(cage, parameters.sex),
-        **spine.definitions(),
-        "clavicle": girdle.clavicle(frame),
-        "scapula": girdle.scapula(frame),
-        "humerus": girdle.humerus(frame),
-        **{f"{side} lung": lungs.lung(cage, side) for side in sides},
-    }
+    organs = _organs(cage)
+    lung_definitions: dict[str, Solid] = {f"{side} lung": lungs.lung(cage, side) for side in SIDES}
+    wrong = changes(cage, abnormalities, lambda: _in_lungs(organs, lung_definitions))
+    both = tuple(Instance(type="instance", of=name) for name in lung_definitions)
+    trees = union(*(vessels.tree(cage, side, parameters.vessel_seed) for side in SIDES))
+    girdles = ("clavicle", "scapula", "humerus")
     parts: list[Solid] = [
         *body.layers(cage, parameters.sex),
-        union(*(Instance(type="instance", of=f"{side} lung") for side in sides)),
-        union(*(vessels.tree(cage, side, parameters.vessel_seed) for side in sides)),
-        union(*(lungs.dome(cage, side) for side in sides), lungs.tendon(cage)),
-        lungs.stomach_bubble(cage),
-        mediastinum.middle(cage),
-        mediastinum.heart(frame),
-        mediastinum.great_vessels(frame),
-        mediastinum.bronchial_walls(frame),
-        mediastinum.airways(frame),
-        union(*(ribs.on_side("side", side, "cartilages") for side in sides)),
+        union(*both),
+        trees,
+        *wrong.in_lungs,
+        *organs,
+        union(*(ribs.on_side("side", side, "cartilages") for side in SIDES)),
         named("sternum", ribs.breastbone(cage)),
         union(*(spine.placed(frame, name) for name in spine.LEVELS)),
-        ribs.ribs({}),
-        union(*(ribs.on_side(n, s, n) for n in ("clavicle", "scapula", "humerus") for s in sides)),
+        ribs.ribs(wrong.ribs),
+        union(*(ribs.on_side(name, side, name) for name in girdles for side in SIDES)),
+        *wrong.at_last,
     ]
     return Document(
         format="phantom/1",
         name="chest",
         title="Chest",
         description=SUMMARY,
-        materials=materials(parameters),
-        definitions=definitions,
+        materials={**materials(parameters), **wrong.materials},
+        definitions={
+            **ribs.definitions(cage),
+            "cartilages": union(*(ribs.cartilage(cage, n) for n in range(1, 11))),
+            **body.definitions(cage, parameters.sex),
+            **spine.definitions(),
+            "clavicle": girdle.clavicle(frame),
+            "scapula": girdle.scapula(frame),
+            "humerus": girdle.humerus(frame),
+            **lung_definitions,
+        },
         solid=layered(*parts),
         landmarks=landmarks(frame),
         anatomy=Anatomy(region="chest"),
         sources=SOURCES,
         parameters={**parameters.model_dump(mode="json"), **frame.sizes._asdict()},
+        findings=tuple(wrong.findings),
     )
 
 
-def landmarks(frame: Frame) -> dict[str, tuple[float, float, float]]:
+def _organs(cage: Cage) -> list[Solid]:
+    """Return what takes its place in the lungs: diaphragm, heart, vessels and airways."""
+    frame = cage.frame
+    return [
+        union(*(lungs.dome(cage, side) for side in SIDES), lungs.tendon(cage)),
+        lungs.stomach_bubble(cage),
+        mediastinum.middle(cage),
+        mediastinum.heart(frame),
+        mediastinum.great_vessels(frame),
+        mediastinum.bronchial_walls(frame),
+        mediastinum.airways(frame),
+    ]
+
+
+def _in_lungs(organs: Sequence[Solid], own: Mapping[str, Solid]) -> Fits:
+    """Return a function that tells which points are in a lung and in none of its neighbours."""
+    from phantom.scene import load
+    from phantom.tracing import materials_at
+
+    instances = [Instance(type="instance", of=name) for name in own]
+    words = ("lung", "soft_tissue", "air", "muscle", "blood")
+    scene = load(
+        Document(
+            format="phantom/1",
+            materials={name: ReferenceMaterial(reference="water") for name in words},
+            definitions=dict(own),
+            solid=layered(union(*instances), *organs),
+        ).model_dump(mode="json")
+    )
+    return lambda points: materials_at(scene, points)[:, 0] > 0
+
+
+def landmarks(frame: Frame) -> dict[str, Point]:
     """Return the points a study of the chest needs."""
-    return {"isocentre": frame.at(0.0, 0.0, -18.0), "carina": frame.at(-3.0, 12.0, 50.0)}
+    return {
+        "isocentre": frame.at(0.0, 0.0, -18.0),
+        "carina": frame.at(-3.0, 12.0, 50.0),
+        **{name.replace(" ", "_"): frame.at(*place) for name, place in SITES.items()},
+    }

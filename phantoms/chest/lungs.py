@@ -94,6 +94,17 @@ def dome_rows(cage: Cage, side: str) -> list[Row]:
     return fitted(f, rows)
 
 
+def angle_z(cage: Cage, side: str) -> float:
+    """Return the height of the costophrenic angle: where dome and lung reach out alike."""
+    lung, under = np.array(sorted(lung_rows(cage, side))), np.array(sorted(dome_rows(cage, side)))
+    z = np.linspace(under[0, 0], under[-1, 0], 400)
+    column = 2 if side == "left" else 1
+    apart = np.abs(np.interp(z, under[:, 0], under[:, column])) - np.abs(
+        np.interp(z, lung[:, 0], lung[:, column])
+    )
+    return float(z[apart > 0].max(initial=z[0]))
+
+
 def dome(cage: Cage, side: str) -> Solid:
     """Return what lies under one half of the diaphragm: liver; stomach and spleen."""
     name = "liver" if side == "right" else "stomach and spleen"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 from phantom.document import told
 from phantom.library import PersonParameters
 from phantom.library.people import mean_person
+from phantoms.people import fat_mm, trimmed
 
 if TYPE_CHECKING:
     import numpy as np
@@ -150,7 +151,6 @@ def usual(person: Person) -> Sizes:
     tall = person.height_cm / mean.height_cm
     heavy = person.bmi / mean.bmi
     decades = (person.age_years - 45.0) / 10.0
-    fat = _within(14.0 + 1.2 * (person.bmi - 28.5), 4.0, 45.0)
     return Sizes(
         chest_width_mm=_within(means.chest_width_mm * tall**0.7 * heavy**0.1, 200, 350),
         chest_depth_mm=_within(
@@ -165,7 +165,7 @@ def usual(person: Person) -> Sizes:
         rib_cortex_mm=_within(1.4 - means.thinning_mm_per_decade * decades, 0.5, 2.6),
         aorta_mm=_within(means.aorta_mm * tall**0.5 + 1.3 * decades, 18, 45),
         kyphosis_deg=_within(25.0 + 2.0 * decades, 5, 60),
-        fat_mm=fat if person.sex == "male" else fat * 1.2,
+        fat_mm=_within(fat_mm(person, 10.5, 12.5), 3.0, 50.0),
     )
 
 
@@ -182,7 +182,7 @@ def sizes(parameters: Parameters) -> Sizes:
 def of_person(person: Person, generator: np.random.Generator) -> Parameters:
     """Draw a person's chest about the means of people like this one; eight numbers are drawn."""
     mean, means = usual(person), MEANS[person.sex]
-    z = generator.standard_normal(7).clip(-2.5, 2.5)
+    z = [trimmed(number) for number in generator.standard_normal(7).tolist()]
     # Height and weight explain about half of the spread of the chest's width.
     width = mean.chest_width_mm + 0.7 * means.chest_width_sd_mm * z[0]
     ratio = mean.heart_width_mm / mean.chest_width_mm + 0.6 * means.heart_ratio_sd * z[1]

@@ -26,7 +26,7 @@ class Level(NamedTuple):
 
 LEVELS: Final = {
     "C4": Level("upper", 187.0, 0.74, 4.5), "C5": Level("upper", 171.5, 0.77, 4.5),
-    "C6": Level("upper", 156.0, 0.80, 4.5), "C7": Level("upper", 140.5, 0.84, 4.5),
+    "C6": Level("upper", 156.0, 0.80, 4.5), "C7": Level("upper", 141.0, 0.83, 4.5),
     "T1": Level("upper", 124.0, 0.90, 4.0), "T2": Level("upper", 105.5, 0.98, 3.5),
     "T3": Level("upper", 85.5, 1.0, 3.0), "T4": Level("upper", 65.0, 1.02, 2.8),
     "T5": Level("middle", 44.0, 0.93, 3.0), "T6": Level("middle", 22.5, 0.97, 3.4),
@@ -51,7 +51,7 @@ class Kind(NamedTuple):
 
 
 KINDS: Final = {
-    "upper": Kind(14.2, 9.8, 17.0, (2.6, 5.0), (33.0, 31.0, 4.0), (52.0, -12.0), 6.0),
+    "upper": Kind(14.2, 9.8, 17.0, (2.6, 5.0), (33.0, 35.0, 4.0), (52.0, -12.0), 6.0),
     "middle": Kind(14.6, 13.2, 19.2, (2.6, 6.0), (29.0, 35.0, 5.0), (55.0, -26.0), 8.0),
     "lower": Kind(17.6, 14.4, 23.5, (4.2, 8.0), (24.0, 32.0, 2.0), (52.0, -12.0), 10.0),
 }
@@ -125,7 +125,7 @@ def vertebra(kind: Kind) -> Solid:
             ),
             cone(
                 f"{side} transverse process",
-                (sign * (kind.half_x - 1.0), back + 10.0, tz - 2.0),
+                (sign * (kind.half_x - 1.0), back + 12.5, tz - 2.0),
                 (sign * tx, ty, tz),
                 (4.6, 4.2),
                 "arch_bone",

@@ -141,7 +141,7 @@ entry = Entry(
     technique=Technique(
         kvp=50.0,
         source_detector_mm=1000.0,
-        object_detector_mm=25.0,
+        object_detector_mm=35.0,
         window=(1.15, 2.3),
         air_kerma_ugy=2.5,
     ),

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from phantom.document import Point, Solid
 from phantoms.hand.forearm import END_Z_MM
 from phantoms.hand.frames import FloatArray, Frame
+from phantoms.inside import inside
 from phantoms.parts import ROUND, Outline, Station, layered, swept, union, within
 
 SKIN, FAT, SOFT = "skin", "fat", "soft tissue"
@@ -119,32 +119,7 @@ def envelope(outer: Mapping[str, Sequence[Station]], fat_mm: float) -> Solid:
 
 def within_skin(outer: Mapping[str, Sequence[Station]], point: FloatArray) -> bool:
     """Whether a point is under the skin, as seen from the sections it lies between."""
-    return any(_under(stations, point) for stations in outer.values())
-
-
-def _under(stations: Sequence[Station], point: FloatArray) -> bool:
-    for before, after in pairwise(stations):
-        start, end = np.array(before.at), np.array(after.at)
-        along = end - start
-        share = float((point - start) @ along / (along @ along))
-        if not 0.0 <= share <= 1.0:
-            continue
-        tangent = along / np.linalg.norm(along)
-        across = np.array([1.0, 0.0, 0.0]) - tangent[0] * tangent
-        across /= np.linalg.norm(across)
-        away = point - start - share * along
-        lows, highs = (
-            np.array([(1 - share) * a + share * b for a, b in zip(*pair, strict=True)])
-            for pair in (
-                ((before.x[0], before.b[0]), (after.x[0], after.b[0])),
-                ((before.x[1], before.b[1]), (after.x[1], after.b[1])),
-            )
-        )
-        place = np.array([away @ across, away @ np.cross(tangent, across)])
-        half = (highs - lows) / 2 - SKIN_MM
-        if (half > 0).all() and np.linalg.norm((place - (highs + lows) / 2) / half) < 1.0:
-            return True
-    return False
+    return any(inside(stations, point, SKIN_MM) for stations in outer.values())
 
 
 def _inside(stations: Sequence[Station], depth_mm: float) -> Sequence[Station]:

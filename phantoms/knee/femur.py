@@ -17,7 +17,7 @@ from typing import Final
 
 from phantom.document import Cut, Cylinder, Difference, Point, Rotation, Solid, Transformed
 from phantoms.knee.sizes import Sizes
-from phantoms.parts import Outline, Station, ellipsoid, layered, swept, within
+from phantoms.parts import Outline, Station, ellipsoid, is_left, layered, swept, within
 
 WIDTH: Final = 88.6
 DEPTH: Final = 61.1
@@ -71,7 +71,7 @@ _BEYOND_MM: Final = 8.0
 
 _ROOF: Final = ((9.0, 9.0), (33.0, 39.0))
 """Two points (y, z) of the roof of the notch, from the trochlea up and back."""
-_NOTCH_DEPTH: Final = 24.0
+_NOTCH_DEPTH: Final = 15.0
 _NOTCH_WALL_MM: Final = 1.4
 _CANAL_FROM_Z: Final = 76.0
 
@@ -85,7 +85,7 @@ def femur(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
     return layered(
         Difference(type="difference", solids=(cortex, _notch(sizes, 0.0))),
         Difference(type="difference", solids=(spongiosa, _notch(sizes, _NOTCH_WALL_MM))),
-        _canal(sizes, cuts),
+        *_canal(sizes, cuts),
     )
 
 
@@ -149,7 +149,7 @@ def stations_of(sizes: Sizes) -> tuple[list[Station], list[float]]:
     return stations + condyle_stations(sizes), walls + [row[4] for row in _CONDYLES]
 
 
-def _canal(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
+def _canal(sizes: Sizes, cuts: Sequence[Cut]) -> list[Solid]:
     """Return the marrow canal: an ellipsoid along the shaft, widest at midshaft."""
     middle_z = sizes.femur_length / 2.0
     ((_, y, half, back, front, wall),) = shaft_rows(sizes, [middle_z])
@@ -161,8 +161,8 @@ def _canal(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
 
 def tilted_ellipsoid(
     name: str, center: Point, semi_axes: Point, tilt_deg: float, cuts: Sequence[Cut]
-) -> Solid:
-    """Return a canal turned about y by an angle; ``cuts`` are planes of the world."""
+) -> list[Solid]:
+    """Return a canal turned about y by an angle, if ``cuts``, not turned, leave any of it."""
     lean = math.radians(tilt_deg)
     cos, sin = math.cos(lean), math.sin(lean)
 
@@ -175,9 +175,8 @@ def tilted_ellipsoid(
         Cut(point=back(cut.point, center), normal=back(cut.normal, (0.0, 0.0, 0.0))) for cut in cuts
     )
     rotate = Rotation(axis=(0.0, 1.0, 0.0), angle_deg=tilt_deg, about=center)
-    return Transformed(
-        type="transformed", solid=upright.model_copy(update={"cuts": turned}), rotate=rotate
-    )
+    kept = upright.model_copy(update={"cuts": turned})
+    return [Transformed(type="transformed", solid=kept, rotate=rotate)] if is_left(kept) else []
 
 
 def _notch(sizes: Sizes, wall_mm: float) -> Cylinder:

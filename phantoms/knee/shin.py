@@ -18,12 +18,13 @@ from typing import Final
 from phantom.document import Cut, Ellipsoid, Solid
 from phantoms.knee.femur import tilted_ellipsoid
 from phantoms.knee.sizes import Sizes
-from phantoms.parts import Outline, Station, ellipsoid, layered, swept, union, within
+from phantoms.parts import Outline, Station, ellipsoid, is_left, layered, swept, union, within
 
 WIDTH: Final = 76.1
 DEPTH: Final = 48.2
 SHAFT: Final = 24.0
 FIBULA_SHAFT: Final = 13.0
+NOTCH: Final = 22.0
 
 # In the frame (x, -y): see tibia_stations.
 OUTLINE: Final[Outline] = (
@@ -62,9 +63,9 @@ _BEYOND_MM: Final = 8.0
 _CANAL_FROM_Z: Final = -62.0
 # Center and semi-axes, in mm over the plateau: medial spine, lateral spine, the rise around them.
 _SPINES: Final = (
-    ("medial spine", (6.2, 13.0, -1.0), (4.4, 8.5, 9.6)),
-    ("lateral spine", (-5.4, 15.0, -1.0), (4.2, 8.0, 8.0)),
-    ("eminence", (0.4, 14.5, -1.5), (13.5, 12.0, 4.6)),
+    ("medial spine", (5.4, 13.0, -1.0), (3.7, 8.5, 9.2)),
+    ("lateral spine", (-5.0, 15.0, -1.0), (3.6, 8.0, 7.8)),
+    ("eminence", (0.2, 14.5, -1.5), (12.0, 12.0, 4.2)),
 )
 
 # z under the plateau, x and y of the axis, its radius across and from front to back.
@@ -113,7 +114,7 @@ def tibia(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
             swept("spongiosa", inner, "spongiosa", OUTLINE, cuts=(under, *cuts)),
             *_spines(sizes, "spongiosa of the ", "spongiosa", 1.0, cuts),
         ),
-        _canal(sizes).model_copy(update={"cuts": tuple(cuts)}),
+        *_left(_canal(sizes), cuts),
     )
 
 
@@ -130,6 +131,7 @@ def tibia_stations(sizes: Sizes) -> tuple[list[Station], list[float]]:
     rows += [
         (z * half_length, *(wide * value for value in borders), share * sizes.tibia_cortex)
         for z, *borders, share in _SHAFT
+        if z * half_length < 1.25 * _HEAD[-1][0] * along
     ]
     bottom = -sizes.limb - _BEYOND_MM
     table = np.array(rows[::-1])
@@ -195,7 +197,13 @@ def _in_fibula(sizes: Sizes, cuts: Sequence[Cut]) -> list[Solid]:
     radius = sizes.fibula_shaft / 2.0 - sizes.fibula_cortex
     middle = (low_x, (low_y + 0.25 * (high_y - low_y)), low_z)
     canal = tilted_ellipsoid("marrow", middle, (radius, radius, end - low_z), tilt, cuts)
-    return [head, canal]
+    return [*_left(head, cuts), *canal]
+
+
+def _left(solid: Ellipsoid, cuts: Sequence[Cut]) -> list[Ellipsoid]:
+    """Return what planes leave of an ellipsoid, if anything."""
+    kept = solid.model_copy(update={"cuts": tuple(cuts)})
+    return [kept] if is_left(kept) else []
 
 
 def _between(z: float, column: int) -> float:
@@ -213,6 +221,8 @@ def _spines(
 ) -> list[Solid]:
     """Return what rises over the plateau, a wall's thickness inside."""
     across, along = scales(sizes)
+    # The spines stand in the notch.
+    across = min(across, sizes.notch_width / NOTCH)
     slope = math.tan(math.radians(sizes.slope_deg))
     found: list[Solid] = []
     for name, (x, y, z), (a, b, c) in _SPINES:
@@ -223,5 +233,5 @@ def _spines(
             (a * across - wall_mm, b * along - wall_mm, c * along - wall_mm),
             material,
         )
-        found.append(solid.model_copy(update={"cuts": tuple(cuts)}))
+        found += _left(solid, cuts)
     return found

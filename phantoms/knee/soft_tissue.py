@@ -79,6 +79,8 @@ def inner_parts(sizes: Sizes, at: Placed) -> list[Solid]:
     front = ridge_y - sizes.patella_thickness
     tuberosity = (-1.0, -21.5 * along, at.plateau_z - 42.0 * along)
 
+    behind = min(9.0, 8.0 * sizes.muscle)
+
     def lift(z: float) -> float:
         return z * along + at.femur_z
 
@@ -90,11 +92,16 @@ def inner_parts(sizes: Sizes, at: Placed) -> list[Solid]:
         pad("suprapatellar fat pad", (0.0, ridge_y - 8.5 * along, top + 11.0), (15.0, 5.5, 11.0)),
         pad("prefemoral fat pad", (-2.0, -23.0 * along, lift(76.0)), (16.0, 3.4, 24.0)),
         pad("infrapatellar fat pad", (0.0, -19.0 * along, lift(3.0)), (19.0, 10.5, 17.0)),
-        pad("popliteal fat", (0.0, 49.0 * along, lift(24.0)), (17.0, 9.0, 36.0)),
+        ellipsoid(
+            "popliteal fat",
+            (0.0, 41.0 * along + behind, lift(18.0)),
+            (17.0 * across, behind, 26.0 * along),
+            "fat",
+        ),
         _band(
             "quadriceps tendon",
             (0.0, front + 9.0 * along, top - 4.0),
-            (-4.0, -37.0 * along, lift(112.0)),
+            (-4.0, -17.0 * along - 19.0 * sizes.muscle, lift(112.0)),
             (15.0 * across, 3.4),
         ),
         _band(

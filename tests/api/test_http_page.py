@@ -20,6 +20,7 @@ def test_the_page_has_its_examples():
     assert [address for address, _, _ in CURLS] == [
         "/v1/radiographs",
         "/v1/renders",
+        "/v1/stereo-pairs",
         "/v1/path-lengths",
         "/v1/phantoms/step-wedge/document",
     ]

@@ -14,6 +14,7 @@ from phantom.cli import app
 from phantom.encode import FORMATS
 
 PAGE = (Path(__file__).parents[2] / "docs" / "formats.md").read_text(encoding="utf-8")
+OF_ONE, OF_PAIRS = PAGE.split("## Pairs")
 RADIUS_MM, ATTENUATION_PER_MM = 25.0, 0.03
 
 
@@ -41,7 +42,7 @@ def folder(tmp_path_factory):
 def test_each_program_finds_the_ball_that_was_xrayed(folder, monkeypatch):
     """Twice the radius along the central ray; the nearest pixel of 64 misses it by a hair."""
     monkeypatch.chdir(folder)
-    programs = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
+    programs = re.findall(r"^```python\n(.*?)^```", OF_ONE, re.M | re.S)
     assert len(programs) == 4
     found = []
     for program in programs:
@@ -69,3 +70,20 @@ def test_each_element_that_is_listed_is_there(folder):
     of_a_tube = {"KVP", "AnodeTargetMaterial", "FilterMaterial", "ExposureInuAs"}
     absent = {word for word in listed if word not in found}
     assert absent == of_a_tube | {"FilterThicknessMinimum"}
+
+
+def test_the_files_of_a_pair_are_what_the_page_says(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for command in re.findall(r"^phantom (stereo .*)$", OF_PAIRS, re.M):
+        result = CliRunner().invoke(app, command.split(), catch_exceptions=False)
+        assert result.exit_code == 0, result.output
+    exr, relation = re.findall(r"^```python\n(.*?)^```", OF_PAIRS, re.M | re.S)
+    found: dict = {}
+    exec(exr, found)
+    assert found["names"] == ("left", "right")
+    assert found["transmission"].shape == (64, 64)
+    exec(relation, found)
+    for eye in ("left", "right"):
+        image = pydicom.dcmread(tmp_path / f"pair-{eye}.dcm")
+        assert found[f"{eye}_uid"] == image.SOPInstanceUID
+    assert found["baseline_mm"] > 0

@@ -18,11 +18,8 @@ from phantom.imaging.refusals import check_exposure
 from phantom.imaging.stereo.eyes import Eyes, check_stereo, eyes
 from phantom.imaging.stereo.pair import StereoPair
 from phantom.imaging.view import FloatArray, View
-from phantom.stereo import Disparity, Screen, Stereo, disparities, largest, structures
-from phantom.stereo.comfort import COMFORTABLE_DEG
-from phantom.stereo.disparity import Structure, surfacing_boxes
-from phantom.stereo.settings import USUAL
-from phantom.stereo.spacing import MAX_ANGLE_DEG, STEP
+from phantom.stereo import Stereo, disparities, disparity_of_all, separation, structures
+from phantom.stereo.spacing import STEP
 
 if TYPE_CHECKING:
     from phantom.scene import Phantom
@@ -152,40 +149,19 @@ def placed(
     return eyes(view, stereo, _separation(phantom, view, stereo, aim), aim)
 
 
-def disparity_of_all(
-    phantom: Phantom, left: FloatArray, right: FloatArray, screen: Screen
-) -> Disparity:
-    """Return the disparity of everything that can be seen, named or not."""
-    boxes = np.stack([*surfacing_boxes(phantom).values()])
-    return disparities([Structure("whole", "", boxes)], left, right, screen)[0]
-
-
 def _separation(phantom: Phantom, view: View, stereo: Stereo, isocentre: FloatArray) -> float:
     """Return the baseline in mm or the angle in degrees; 0 for a mono arm."""
-    asked = stereo.separation
-    if stereo.mono is not None:
-        return 0.0
-    if isinstance(asked, float):
-        return asked
 
-    def worst_deg(separation: float) -> float:
+    def worst_deg(apart: float) -> float:
         try:
-            tried = eyes(view, stereo, separation, isocentre)
+            tried = eyes(view, stereo, apart, isocentre)
         except InvalidInputError:
             return math.inf
         left, right = (projection(eye).matrix for eye in (tried.left, tried.right))
-        found = disparity_of_all(phantom, left, right, stereo.screen)
-        return math.inf if found.degrees is None else max(map(abs, found.degrees))
+        return disparity_of_all(phantom, left, right, stereo.screen).worst_deg
 
-    usual = USUAL[stereo.method]
-    if asked is None and worst_deg(usual) <= COMFORTABLE_DEG:
-        return usual
-    limit = MAX_ANGLE_DEG
-    if stereo.method == "shift":
-        depth = eyes(view, stereo, STEP["shift"], isocentre).zero_depth_mm
-        assert depth is not None
-        limit = 2.0 * depth * math.tan(math.radians(limit / 2))
-    return largest(worst_deg, limit if asked == "auto" else usual, STEP[stereo.method])
+    depth_mm = eyes(view, stereo, STEP[stereo.method], isocentre).zero_depth_mm
+    return separation(stereo, worst_deg, depth_mm)
 
 
 def _dosed(acquisition: Acquisition | None, stereo: Stereo) -> Acquisition | None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from phantom.stereo.telling import stereo_told
+
 if TYPE_CHECKING:
     from phantom.imaging.result import Radiograph
     from phantom.imaging.stereo.pair import StereoPair
-
-SIGN: Final = "left column - right column: above 0 is crossed, nearer than the screen"
 
 SHARED: Final = ("software", "phantom", "units", "axes", "beam")
 """What is the same of both images."""
@@ -39,18 +39,12 @@ def eye_metadata(pair: StereoPair, eye: str, radiograph: Radiograph) -> dict[str
 
 def stereo_metadata(pair: StereoPair) -> dict[str, Any]:
     """Return the geometry of a pair, and what it asks of the eyes."""
-    asked, eyes, matrix = pair.stereo, pair.eyes, pair.epipolar_matrix
-    plane = asked.zero_parallax
-    return {
-        "method": asked.method,
-        "mono": asked.mono,
-        "dose": asked.dose,
-        "baseline_mm": eyes.baseline_mm,
-        "angle_deg": eyes.angle_deg,
-        "zero_parallax": plane if isinstance(plane, str) else plane.model_dump(mode="json"),
-        "zero_depth_mm": eyes.zero_depth_mm,
-        "screen": asked.screen.model_dump(mode="json"),
-        "disparity": {"sign": SIGN, **pair.whole.told()},
-        "epipolar_matrix": None if matrix is None else matrix.tolist(),
-        "comfort": pair.comfort.told(),
-    }
+    return stereo_told(
+        pair.stereo,
+        baseline_mm=pair.eyes.baseline_mm,
+        angle_deg=pair.eyes.angle_deg,
+        zero_depth_mm=pair.eyes.zero_depth_mm,
+        whole=pair.whole,
+        comfort=pair.comfort,
+        matrix=pair.epipolar_matrix,
+    )

@@ -1,0 +1,148 @@
+"""Stomach and liver as a document of the library."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from phantom.document import Anatomy, CompositionMaterial, Document, ReferenceMaterial
+from phantom.document.substances import Material
+from phantom.library import Abnormality, Entry, Technique
+from phantoms.parts import layered, named, union
+from phantoms.people import cortical_density_g_cm3, muscle_scale, spongiosa_density_g_cm3
+from phantoms.stomach_and_liver.abnormalities import ABNORMALITIES, Surroundings, add
+from phantoms.stomach_and_liver.organs import AIR, BARIUM, LIVER, WALL, Stomach, liver
+from phantoms.stomach_and_liver.parameters import Parameters, of_person
+from phantoms.stomach_and_liver.spine import CORTEX, SPONGIOSA, psoas, ribs, spine
+from phantoms.stomach_and_liver.trunk import (
+    FAT,
+    LUNG,
+    MIDDLE_MM,
+    MUSCLE,
+    SKIN,
+    VISCERA,
+    envelope,
+    lungs,
+    trunk_of,
+)
+
+SOURCES: Final = (
+    "Feng et al., World J. Gastroenterol. 23 (2017) 4968: liver volume 758.259 BSA - 124.272 cm³.",
+    "Du Bois, Du Bois, Arch. Intern. Med. 17 (1916) 863: body surface.",
+    "Pickhardt, Asher, AJR 181 (2003) 973: gastric wall 5.1 ± 1.6 mm in the antrum, 2.0 ± 0.4 mm"
+    " in the body.",
+    "Int. J. Spine Surg., table 6, measurements at L5: heights and pedicles.",
+    "Riggs et al., J. Bone Miner. Res. 19 (2004) 1945: bone density by age.",
+    "Estimates: the stomach's axis, 250 to 300 mm, and lumen; shapes and places of all organs; the"
+    " rest of the spine, ribs, muscles, cavity and fat.",
+)
+_TITLE: Final = "Stomach and liver"
+_SUMMARY: Final = (
+    "The upper belly of a person who stands and has drunk barium: the stomach as one generalized"
+    " cylinder along a J, air over barium in it; liver, lumbar spine, lower ribs, psoas, lung"
+    " bases, in muscle, fat and skin."
+)
+_BARIUM_SULPHATE_G_CM3: Final = 4.5
+
+
+def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> Document:
+    """Return the phantom, the middle of the third lumbar vertebra near the origin.
+
+    Raises
+    ------
+    InvalidInputError
+        An abnormality that does not fit, with a path under ``/abnormalities``.
+    """
+    chosen = parameters.resolved()
+    person = chosen.person
+    scale = person.height_cm / 168.5
+    organ, sections = liver(scale, chosen.value("liver_volume_cm3"))
+    trunk = trunk_of(person, scale, chosen.value("fat_mm"), -sections[0].at[0])
+    stomach = Stomach(
+        scale,
+        chosen.value("stomach_axis_mm"),
+        chosen.stomach_lumen_mm,
+        chosen.stomach_wall_mm,
+    )
+    low, high = stomach.heights_mm
+    level = low + chosen.filling * (high - low)
+    wrong, findings = add(stomach, level, abnormalities, Surroundings(trunk, sections, scale))
+    solid = layered(
+        envelope(trunk),
+        *lungs(trunk, scale),
+        union(*psoas(scale, muscle_scale(person), trunk)),
+        organ,
+        union(*spine(scale), *(ribs(scale, trunk) if chosen.ribs else [])),
+        named("stomach", layered(*stomach.solids(level, chosen.coating_mm))),
+        named("duodenum", stomach.bulb(chosen.stomach_wall_mm)),
+        *wrong,
+    )
+    return Document(
+        format="phantom/1",
+        name="stomach-and-liver",
+        title=_TITLE,
+        description=_SUMMARY,
+        materials=_materials(chosen),
+        solid=solid,
+        landmarks={
+            "isocentre": (0.0, 0.0, scale * MIDDLE_MM),
+            "fundus": stomach.lumen[0].at,
+            "pylorus": stomach.lumen[-1].at,
+            "barium level": (*(float(v) for v in stomach.frame(0.3)[0][:2]), level),
+        },
+        anatomy=Anatomy(region="abdomen"),
+        sources=SOURCES,
+        parameters=chosen.model_dump(mode="json"),
+        findings=tuple(findings),
+    )
+
+
+def _materials(chosen: Parameters) -> dict[str, Material]:
+    person = chosen.person
+    dense = round(cortical_density_g_cm3(person), 4)
+    light = round(spongiosa_density_g_cm3(person, central=True), 4)
+    return {
+        SKIN: ReferenceMaterial(reference="skin_icru44"),
+        FAT: ReferenceMaterial(reference="adipose_icru44"),
+        MUSCLE: ReferenceMaterial(reference="muscle_icru44"),
+        # Bowel and the fat about it: more like fat than like muscle.
+        VISCERA: ReferenceMaterial(reference="adipose_icru44", density_g_cm3=1.0),
+        LUNG: ReferenceMaterial(reference="lung_icru44"),
+        LIVER: ReferenceMaterial(reference="soft_tissue_icru44"),
+        CORTEX: ReferenceMaterial(reference="cortical_bone_icru44", density_g_cm3=dense),
+        SPONGIOSA: ReferenceMaterial(reference="spongiosa_icru44", density_g_cm3=light),
+        WALL: ReferenceMaterial(reference="muscle_icru44"),
+        AIR: CompositionMaterial(
+            composition={"N": 0.755, "O": 0.232, "Ar": 0.013}, density_g_cm3=0.0012
+        ),
+        BARIUM: suspension(chosen.barium_g_ml),
+    }
+
+
+def suspension(barium_sulphate_g_ml: float) -> CompositionMaterial:
+    """Return barium sulphate in water, so many grams in each millilitre of the suspension."""
+    density = barium_sulphate_g_ml + (1.0 - barium_sulphate_g_ml / _BARIUM_SULPHATE_G_CM3)
+    salt = barium_sulphate_g_ml / density
+    water = 1.0 - salt
+    return CompositionMaterial(
+        composition={
+            "H": round(0.1119 * water, 6),
+            "O": round(0.8881 * water + 0.2742 * salt, 6),
+            "S": round(0.1374 * salt, 6),
+            "Ba": round(0.5884 * salt, 6),
+        },
+        density_g_cm3=round(density, 6),
+    )
+
+
+entry = Entry(
+    name="stomach-and-liver",
+    title=_TITLE,
+    summary=_SUMMARY,
+    parameters=Parameters,
+    build=build,
+    views=("ap", "rao"),
+    technique=Technique(kvp=78.0, source_detector_mm=1150.0, window=(4.9, 4.4), air_kerma_ugy=2.5),
+    abnormalities=ABNORMALITIES,
+    of_person=of_person,
+)

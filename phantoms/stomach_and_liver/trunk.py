@@ -1,0 +1,139 @@
+"""The trunk about the organs: skin, fat, muscle, the cavity, lung bases and the diaphragm's domes.
+
+Sizes are estimates: the cavity grows with the body's surface, and in depth with the body mass
+index.
+"""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+from phantom.document import Cut, Ellipsoid, GeneralizedCylinder, Point, Solid
+from phantom.library import Person
+from phantoms.parts import Outline, Station, layered, swept, union
+from phantoms.people import muscle_scale
+from phantoms.stomach_and_liver.parameters import body_surface_m2
+
+SKIN, FAT, MUSCLE, VISCERA, LUNG = "skin", "fat", "muscle", "viscera", "lung"
+SKIN_MM: Final = 2.0
+_TOP_MM, _BOTTOM_MM = 174.0, -100.0
+MIDDLE_MM: Final = 37.0
+"""Height of the middle of what is seen."""
+_FOCUS_MM: Final = 1000.0
+_BEYOND_MM: Final = 40.0
+"""How far the parts reach beyond the ends before they are cut."""
+_OUTLINE: Final[Outline] = (
+    (0.0, -1.0), (0.42, -0.94), (0.76, -0.72), (0.96, -0.34), (1.0, 0.08), (0.92, 0.5),
+    (0.68, 0.84), (0.36, 0.99), (0.0, 0.95), (-0.36, 0.99), (-0.68, 0.84), (-0.92, 0.5),
+    (-1.0, 0.08), (-0.96, -0.34), (-0.76, -0.72), (-0.42, -0.94),
+)  # fmt: skip
+# Share of the way up, and of the size there.
+_TAPER: Final = ((0.0, 1.0), (0.2, 0.975), (0.4, 0.965), (0.6, 0.99), (0.8, 1.01), (1.0, 0.99))
+
+
+class Trunk(NamedTuple):
+    """Sizes of one person's trunk, in mm; heights are over the middle of L3.
+
+    The ends are planes through ``focus``, where a tube in front stands, so that they are seen from
+    the edge, as what a collimator's blades leave.
+    """
+
+    half_width: float
+    half_depth: float
+    muscle: float
+    fat: float
+    bottom: float
+    top: float
+    focus: Point
+
+    @property
+    def depth(self) -> float:
+        """Half the depth with muscle, fat and skin."""
+        return 1.01 * self.half_depth + self.muscle + self.fat + SKIN_MM
+
+    @property
+    def ends(self) -> tuple[Cut, Cut]:
+        """The planes of both ends."""
+        _, y, z = self.focus
+        # Normals square to the line from the focus to the end's middle, and to x.
+        return (
+            Cut(point=(0.0, 0.0, self.top), normal=(0.0, z - self.top, -y)),
+            Cut(point=(0.0, 0.0, self.bottom), normal=(0.0, self.bottom - z, y)),
+        )
+
+
+def trunk_of(person: Person, scale: float, fat_mm: float, reach_mm: float) -> Trunk:
+    """Return the trunk of a person; ``reach_mm`` is how far the liver reaches aside."""
+    broad = (body_surface_m2(person) / 1.9) ** 0.5
+    half_width = max(133.0 * broad, reach_mm + 6.0)
+    half_depth = 96.0 * broad * (1.0 + 0.010 * min(max(person.bmi - 25.0, -6.0), 25.0))
+    muscle = 13.0 * muscle_scale(person)
+    focus = (0.0, -_FOCUS_MM, scale * MIDDLE_MM)
+    return Trunk(half_width, half_depth, muscle, fat_mm, scale * _BOTTOM_MM, scale * _TOP_MM, focus)
+
+
+def envelope(trunk: Trunk) -> Solid:
+    """Return skin, fat, muscle and the cavity."""
+    wall = trunk.muscle
+    layers = (
+        (SKIN, wall + trunk.fat + SKIN_MM),
+        (FAT, wall + trunk.fat),
+        (MUSCLE, wall),
+        (VISCERA, 0.0),
+    )
+    return layered(*(_shell(name, name, trunk, beyond) for name, beyond in layers))
+
+
+def lungs(trunk: Trunk, scale: float) -> list[Solid]:
+    """Return the lung bases, and the abdomen's domes that replace them again."""
+    cut = Cut(point=(0.0, 0.0, scale * 90.0), normal=(0.0, 0.0, -1.0))
+    bases = _shell("lung bases", LUNG, trunk, -4.0, (cut,))
+    width, depth = trunk.half_width, trunk.half_depth
+    domes = union(
+        _ellipsoid(
+            "right dome",
+            (-0.5 * width, 0.0, scale * 40.0),
+            (0.56 * width, 1.12 * depth, scale * 124.0),
+            VISCERA,
+            trunk.ends,
+        ),
+        _ellipsoid(
+            "left dome",
+            (0.5 * width, 0.04 * depth, scale * 40.0),
+            (0.56 * width, 1.12 * depth, scale * 117.0),
+            VISCERA,
+            trunk.ends,
+        ),
+        _ellipsoid(
+            "middle",
+            (0.0, 0.0, scale * 120.0),
+            (0.3 * width, 0.9 * depth, scale * 90.0),
+            VISCERA,
+            trunk.ends,
+        ),
+    )
+    return [bases, domes]
+
+
+def _ellipsoid(
+    name: str, center: Point, semi_axes: Point, material: str, cuts: tuple[Cut, ...]
+) -> Ellipsoid:
+    return Ellipsoid(
+        type="ellipsoid",
+        name=name,
+        material=material,
+        center=center,
+        semi_axes=semi_axes,
+        cuts=cuts,
+    )
+
+
+def _shell(
+    name: str, material: str, trunk: Trunk, beyond: float, cuts: tuple[Cut, ...] = ()
+) -> GeneralizedCylinder:
+    rows = []
+    for share, size in _TAPER:
+        wide, deep = size * trunk.half_width + beyond, size * trunk.half_depth + beyond
+        z = trunk.bottom - _BEYOND_MM + share * (trunk.top - trunk.bottom + 2 * _BEYOND_MM)
+        rows.append(Station((0.0, 0.0, z), (-wide, wide), (-deep, deep)))
+    return swept(name, rows, material, _OUTLINE, cuts=(*trunk.ends, *cuts))
