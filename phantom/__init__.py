@@ -161,7 +161,7 @@ _HOMES = {
         "Tone",
         "preset_camera",
         "render",
-    "render_pair",
+        "render_pair",
     ),
 }
 _HOME = {name: home for home, found in _HOMES.items() for name in found}

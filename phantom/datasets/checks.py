@@ -16,6 +16,7 @@ from phantom.datasets.storage import Storage
 from phantom.document import Model, validate_model
 from phantom.document.words import arranged
 from phantom.errors import InvalidInputError, Problem, pointer, prefixed
+from phantom.imaging.stereo import placed
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest
 
@@ -66,6 +67,8 @@ def _first(design: Design, limits: Limits | None) -> RadiographPlan:
         if limits is not None:
             detector = planned.view.detector
             limits.check_radiograph(detector.columns, detector.rows, len(of.phantom.material_names))
+        if design.stereo is not None:
+            placed(of.phantom, planned.view, design.stereo)
         if design.outputs.form == "presentation" and planned.presentation.mode == "window":
             _ = planned.presentation.window
         plans.append(planned)
@@ -178,6 +181,8 @@ def expected_bytes(design: Design, planned: RadiographPlan) -> int:
     picture = BYTES_A_PIXEL["noisy" if noisy else "ideal"] * pixels
     if kept.codes:
         picture += BYTES_A_PIXEL["codes"] * pixels
+    if design.stereo is not None and design.stereo.mono != "single":
+        picture *= 2.0
     if design.twins:
         healthy = 1.0
         for asked in design.abnormalities:

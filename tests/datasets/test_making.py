@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import phantom
 from phantom.datasets.making import LINEAR_CODES, Maker
 from phantom.encode import METADATA_KEY
 
@@ -86,7 +87,8 @@ def test_twins_differ_inside_the_lesion_alone_to_the_last_bit(design, noise):
         at = _place(wanted, number)
         of = maker.case(at)
         planned = maker.plan(at, of)
-        lesioned, healthy = planned.render(), maker.twin(planned, of)
+        shot = maker.shoot(planned)
+        lesioned, healthy = shot.left, maker.twin(of, shot).left
         truth = planned.tell()
         shadow = truth["nodule"].mask
         # What a void takes away has no leaf of its own: its silhouette is where less is left.
@@ -164,3 +166,37 @@ def test_a_maker_gives_the_same_in_any_order_and_on_any_number_of_threads(design
     forward = {number: one.make(number).files for number in (0, 1, 2, 5)}
     backward = {number: other.make(number).files for number in (5, 2, 1, 0)}
     assert forward == backward
+
+
+def test_two_eyes_give_two_pictures_of_the_pair_and_their_twins(design):
+    wanted = design(
+        abnormalities=[NODULE],
+        twins=True,
+        stereo={"baseline_mm": 20.0},
+        detector={"columns": 64, "pitch_mm": 1.0},
+        acquisition={"quantum_noise": "off"},
+    )
+    maker = Maker(wanted)
+    made = maker.make(0)
+    assert {"png", "right.png", "mask.png", "right.mask.png", "twin.png", "twin.right.png"} <= (
+        set(made.files)
+    )
+    assert made.row["stereo_baseline_mm"] == 20.0
+    of = maker.case(_place(wanted, 0))
+    view = maker.plan(_place(wanted, 0), of).view
+    pair = phantom.stereo_pair(of.phantom, view, phantom.Beam(kvp=60), baseline_mm=20.0)
+    for name, image in (("", pair.left), ("right.", pair.right)):
+        shown = np.asarray(_pixels(made.files[f"{name}png"]), dtype=float) / LINEAR_CODES
+        assert np.abs(shown - image.transmission).max() < 0.51 / LINEAR_CODES
+        twin, mask = (_pixels(made.files[k]) for k in (f"twin.{name}png", f"{name}mask.png"))
+        differs = twin != _pixels(made.files[f"{name}png"])
+        assert np.array_equal(differs & (mask == 0), np.zeros_like(differs))
+        assert np.mean(differs[mask > 0]) > 0.9
+
+
+@pytest.mark.parametrize(("mono", "both"), [("same_image", True), ("single", False)])
+def test_the_arm_without_depth_shows_one_image(design, mono, both):
+    made = Maker(design(stereo={"mono": mono})).make(0)
+    assert ("right.png" in made.files) == both
+    if both:
+        assert np.array_equal(_pixels(made.files["png"]), _pixels(made.files["right.png"]))
