@@ -226,7 +226,7 @@ def test_what_is_hidden_is_looked_through():
     assert [p.path for p in refused.value.problems] == ["/hide/1"]
 
 
-@pytest.mark.parametrize("seed", [0, 3, 4, 7, 8, 10, 14, 16])
+@pytest.mark.parametrize("seed", [0, 3, 4, 8, 10, 13, 14, 16])
 def test_a_picture_s_rays_see_what_free_rays_see(seed):
     """Whole tiles at once against one ray by one; from afar, in parallel, and from within."""
     _, shape = loaded(random_solid(seed))
