@@ -16,6 +16,7 @@ COMMANDS = (
     "phantom radiograph fan --view ap --columns 600 --rows 600 -o docs/images/fan.png",
 )
 GALLERY = (
+    "python docs/paper_pictures.py",
     "phantom radiograph deformed --view ap --columns 600 --rows 600 -o docs/images/deformed.png",
     "python docs/reference_shapes.py",
     "python docs/paper_figures.py",
