@@ -30,6 +30,7 @@ from phantom.document import Document
 from phantom.requests.paths import PathLengthsRequest
 from phantom.requests.radiograph import RadiographRequest
 from phantom.requests.render import RenderRequest
+from phantom.requests.render_pair import RenderPairRequest
 from phantom.requests.stereo import StereoRequest
 from phantom.tracing import warm
 
@@ -39,6 +40,7 @@ BODIES = (
     RadiographRequest,
     StereoRequest,
     RenderRequest,
+    RenderPairRequest,
     PathLengthsRequest,
     Design,
 )

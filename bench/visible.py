@@ -1,4 +1,4 @@
-"""How long a picture in visible light takes: ``uv run python bench/visible.py``.
+"""How long a picture in visible light takes: ``uv run python -m bench.visible``.
 
 Wall time on every processor, and processor time, which a busy machine does not stretch as much:
 over the number of processors it is about what an idle machine takes.

@@ -61,6 +61,18 @@ _MIDDLE: Final = (
 )
 
 
+# The section of what lies about the ribs' necks: thin toward its sides, so that they cast no edge.
+_NECKS_SHAPE: Final = SplineContour(
+    type="spline",
+    points=(
+        (0.0, -1.0), (0.32, -0.93), (0.46, -0.80), (0.58, -0.58), (0.70, -0.28), (0.85, 0.06),
+        (1.0, 0.32), (0.82, 0.58), (0.5, 0.88), (0.0, 1.0), (-0.5, 0.88), (-0.82, 0.58),
+        (-1.0, 0.32), (-0.85, 0.06), (-0.70, -0.28), (-0.58, -0.58), (-0.46, -0.80),
+        (-0.32, -0.93),
+    ),
+)  # fmt: skip
+
+
 def heart_rows(frame: Frame) -> list[Row]:
     """Return the sections of a person's heart, as wide as it is to be."""
     wide = frame.sizes.heart_width_mm / MODEL_HEART_MM
@@ -135,9 +147,12 @@ def middle(cage: Cage) -> Solid:
     f = cage.frame
     core = column("mediastinum", sampled(fitted(f, _MIDDLE), 10), "soft_tissue")
     rows: list[Row] = []
+    behind: list[Row] = []
     for z in range(-230, 235, 45):
         y = spine_y(float(z))
         half = 19.5 + 3.0 * math.exp(-(((z + 60.0) / 90.0) ** 2))
         rows.append((float(z), -half, half, y - 15.0, y + 46.0))
+        behind.append((float(z), -66.0, 66.0, y + 1.0, y + 57.0))
     beside = column("tissue beside the spine", fitted(f, rows), "muscle")
-    return union(core, beside)
+    necks = column("muscle about the ribs' necks", fitted(f, behind), "muscle", _NECKS_SHAPE)
+    return union(core, beside, necks)

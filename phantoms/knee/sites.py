@@ -27,10 +27,10 @@ class Site(NamedTuple):
 _IN_BONE: Final = {
     "medial femoral condyle": Site("femur", (27.0, 20.0, 21.0), 12.5),
     "lateral femoral condyle": Site("femur", (-27.0, 20.0, 21.0), 12.5),
-    "distal femur": Site("femur", (0.0, 0.0, 61.0), 13.0),
-    "medial tibial plateau": Site("tibia", (19.0, 14.0, -17.0), 12.0),
-    "lateral tibial plateau": Site("tibia", (-18.0, 14.0, -17.0), 12.0),
-    "proximal tibia": Site("tibia", (0.6, 4.0, -42.0), 14.0),
+    "distal femur": Site("femur", (0.0, 0.0, 60.0), 11.8),
+    "medial tibial plateau": Site("tibia", (15.5, 10.5, -15.5), 11.0),
+    "lateral tibial plateau": Site("tibia", (-15.0, 10.5, -15.5), 11.0),
+    "proximal tibia": Site("tibia", (0.6, 3.0, -40.0), 12.0),
 }
 
 

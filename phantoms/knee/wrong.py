@@ -146,8 +146,8 @@ def _effusion(plan: Plan, name: str, one: known.Effusion) -> None:
     """Fluid before the femur: the strip grows forward from the bone."""
     across, along = femur.scales(plan.sizes)
     half = one.depth_mm / 2.0
-    middle = (-3.0 * across, -17.0 * along - half, 68.0 * along + plan.at.femur_z)
-    axes = (20.0 * across, half + 1.5, 25.0 * along)
+    middle = (-3.0 * across, -16.0 * along - half, 68.0 * along + plan.at.femur_z)
+    axes = (20.0 * across, half + 1.0, 25.0 * along)
     plan.materials[name] = ReferenceMaterial(reference="water", density_g_cm3=1.02)
     plan.around.append(ellipsoid(name, middle, axes, name))
     size = (2.0 * axes[0], one.depth_mm, 2.0 * axes[2])

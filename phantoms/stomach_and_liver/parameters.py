@@ -43,8 +43,15 @@ class Parameters(PersonParameters):
         ),
     ] = None
     stomach_lumen_mm: Annotated[
-        Number, told("Lumen", "mm", "The widest place's diameter.", ge=60.0, le=105.0)
-    ] = 88.0
+        Number | None,
+        told(
+            "Lumen",
+            "mm",
+            "The widest place's diameter, at most 0.4 of the axis; null by stature.",
+            ge=60.0,
+            le=105.0,
+        ),
+    ] = None
     stomach_wall_mm: Annotated[
         Number,
         told("Wall", "mm", "Of the antrum; the body's is two fifths of it.", ge=2.5, le=8.0),
@@ -121,7 +128,7 @@ def _of(person: Person, drawn: list[float]) -> dict[str, float]:
     made = {
         "liver_volume_cm3": liver_volume_cm3(person) * math.exp(_LIVER_SPREAD * 0.8 * liver),
         "stomach_axis_mm": 275.0 * person.height_cm / 168.5 * (1 + 0.05 * axis),
-        "stomach_lumen_mm": 88.0 + 5.0 * lumen,
+        "stomach_lumen_mm": 88.0 * person.height_cm / 168.5 * (1 + 0.05 * lumen),
         "stomach_wall_mm": 5.1 + 0.8 * wall,
         "fat_mm": fat_mm(person, 15.0, 20.0, per_bmi=0.07, scatter=fat),
     }

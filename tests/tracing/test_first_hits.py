@@ -167,6 +167,23 @@ def test_flat_ends_have_the_tangent_as_their_normal():
     np.testing.assert_allclose(hits.distance_mm, [50, 50], rtol=0, atol=1e-9)
 
 
+def test_the_step_where_a_frame_jumps_is_flat():
+    """At the inflection of x**3 a disc off the axis jumps from one side to the other."""
+    tube = {
+        "type": "generalized_cylinder",
+        "axis": {"type": "formula", "x": "u", "y": "u**3 / 3000", "z": "0", "range": [-40, 40]},
+        "contour": {"type": "circle", "radius": 1.0},
+        "sweep": {"type": "linear", "offset": [8.0, 0]},
+        "frame": "frenet",
+        "material": "m",
+    }
+    _, shape = loaded(tube)
+    hits = phantom.first_hits(shape, [[-9, 8, 0.3], [9, -8, 0.3]], [[1, 0, 0], [-1, 0, 0]])
+    np.testing.assert_allclose(hits.distance_mm, [9, 9], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(hits.normal, [[-1, 0, 0], [1, 0, 0]], rtol=0, atol=1e-9)
+    assert np.isnan(hits.uv[:, 1]).all()
+
+
 def ball(radius, material="bone", x=0.0, **more):
     return {"type": "sphere", "center": [x, 0, 0], "radius": radius, "material": material, **more}
 
@@ -226,7 +243,7 @@ def test_what_is_hidden_is_looked_through():
     assert [p.path for p in refused.value.problems] == ["/hide/1"]
 
 
-@pytest.mark.parametrize("seed", [0, 3, 4, 7, 8, 10, 14, 16])
+@pytest.mark.parametrize("seed", [0, 3, 4, 8, 10, 13, 14, 16])
 def test_a_picture_s_rays_see_what_free_rays_see(seed):
     """Whole tiles at once against one ray by one; from afar, in parallel, and from within."""
     _, shape = loaded(random_solid(seed))
