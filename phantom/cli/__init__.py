@@ -12,12 +12,15 @@ import typer
 from phantom.cli import (
     dataset,
     documents,
+    export,
     library,
+    preview,
     radiograph,
     render,
     render_pair,
     serve,
     stereo,
+    wireframe,
 )
 
 app = typer.Typer(
@@ -35,6 +38,9 @@ app.command("radiograph")(radiograph.make)
 app.command("stereo")(stereo.make)
 app.command("render")(render.make)
 app.command("render-pair")(render_pair.make)
+app.command("preview")(preview.make)
+app.command("wireframe")(wireframe.make)
+app.command("export")(export.make)
 app.add_typer(dataset.app, name="dataset")
 app.command("serve")(serve.serve)
 

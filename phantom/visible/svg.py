@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 if TYPE_CHECKING:
-    from phantom.visible.wireframe import Stroke
+    from phantom.visible.drawing import Stroke
 
 
 def svg(

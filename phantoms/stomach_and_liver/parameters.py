@@ -69,10 +69,10 @@ class Parameters(PersonParameters):
     barium_g_ml: Annotated[
         Number,
         told("Barium", "g/mL", "Barium sulphate in the suspension.", ge=0.05, le=2.0),
-    ] = 0.3
+    ] = 0.12
     coating_mm: Annotated[
         Number, told("Coating", "mm", "Barium on the wall above the level.", ge=0.05, le=1.0)
-    ] = 0.25
+    ] = 0.4
     fat_mm: Annotated[
         Number | None,
         told("Fat", "mm", "Under the skin; null for the body mass index.", ge=2.0, le=90.0),

@@ -150,7 +150,7 @@ entry = Entry(
     parameters=Parameters,
     build=build,
     views=("ap", "rao"),
-    technique=Technique(kvp=78.0, source_detector_mm=1150.0, window=(4.9, 4.4), air_kerma_ugy=2.5),
+    technique=Technique(kvp=78.0, source_detector_mm=1150.0, window=(5.0, 5.2), air_kerma_ugy=2.5),
     abnormalities=ABNORMALITIES,
     of_person=of_person,
 )

@@ -9,7 +9,7 @@ import phantom
 from phantom.tessellation import tessellate
 from phantom.tracing.shown import shown_leaves
 from phantom.visible import Camera, CameraPreset, DirectionalLight, Lighting
-from phantom.visible.preview import preview
+from phantom.visible.previewing import preview
 from phantom.visible.rendering import render, view_of
 from phantom.visible.zbuffer import ZBuffer, facets
 from tests.oracles import documents

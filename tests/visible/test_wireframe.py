@@ -8,8 +8,8 @@ import pytest
 
 import phantom
 from phantom.visible import Camera, CameraPreset
+from phantom.visible.drawing import wireframe
 from phantom.visible.strokes import covered
-from phantom.visible.wireframe import wireframe
 
 SVG = "{http://www.w3.org/2000/svg}"
 BALL = {"type": "sphere", "name": "ball", "material": "m", "center": [0, 0, 0], "radius": 20}
@@ -164,8 +164,8 @@ def test_lines_cover_pixels_by_the_share_that_they_lie_on():
 
 
 def test_a_drawing_is_ink_on_paper():
-    drawing = wireframe(document(TUBE), FRONT, ink=(0.2, 0.1, 0.0), paper=(0.9, 1.0, 0.8))
-    rgb = drawing.picture.rgb.reshape(-1, 3)
+    drawing = wireframe(document(TUBE), FRONT, ink=(0.2, 0.1, 0.0), background=(0.9, 1.0, 0.8))
+    rgb = drawing.rgb.reshape(-1, 3)
     assert rgb[0] == pytest.approx([0.9, 1.0, 0.8])
     assert rgb.min(axis=0) == pytest.approx([0.2, 0.1, 0.0], abs=0.05)
     assert b'fill="#f3ffe7"' in drawing.svg()
@@ -176,7 +176,7 @@ def test_a_drawing_is_ink_on_paper():
     [
         ({"rings": 1}, "/rings"),
         ({"lines": 2000}, "/lines"),
-        ({"width_px": 0.0}, "/width_px"),
+        ({"line_width_px": 0.0}, "/line_width_px"),
         ({"hide": ["nothing"]}, "/hide/0"),
     ],
 )

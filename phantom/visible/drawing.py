@@ -22,7 +22,7 @@ from phantom.tracing.seen import first_hits
 from phantom.tracing.shown import shown_leaves
 from phantom.visible.camera import Camera
 from phantom.visible.lights import Color
-from phantom.visible.picture import Picture
+from phantom.visible.picture import COLOR, Picture
 from phantom.visible.presets import CameraPreset
 from phantom.visible.rendering import camera_of
 from phantom.visible.strokes import covered
@@ -37,6 +37,9 @@ DEFAULT_LINES: Final = 24
 INK: Final[Color] = (0.0, 0.0, 0.0)
 PAPER: Final[Color] = (1.0, 1.0, 1.0)
 WIDTH: Final = 1.0
+DRAWING: Final = "drawing"
+"""What an SVG holds, as formats and requests call it."""
+
 MAX_LINES: Final = 1000
 
 _EDGES = 1e-3
@@ -73,34 +76,33 @@ class Stroke:
 
 
 @dataclass(frozen=True, eq=False)
-class Wireframe:
-    """A drawing of lines.
+class Wireframe(Picture):
+    """A drawing of lines: a picture with smooth edges, and the lines themselves.
 
     Attributes
     ----------
     strokes
         All lines of which something is seen, leaf by leaf.
-    picture
-        The drawing with smooth edges, as a picture for the formats of pixels.
     """
 
-    strokes: tuple[Stroke, ...]
-    picture: Picture
-    ink: Color = INK
-    paper: Color = PAPER
-    width_px: float = WIDTH
+    strokes: tuple[Stroke, ...] = ()
+
+    def quantity(self, name: str = COLOR) -> Floats:
+        """Return the intensities, or of ``drawing`` the bytes of :meth:`svg`."""
+        if name == DRAWING:
+            return np.frombuffer(self.svg(), dtype=np.uint8)
+        return super().quantity(name)
 
     def svg(self) -> bytes:
         """Return the drawing as SVG, in pixels."""
-        camera = self.picture.camera
         return svg(
             self.strokes,
-            camera.columns,
-            camera.rows,
-            title=str(self.picture.told["phantom"]["name"]),
-            ink=_hex(self.ink),
-            paper=_hex(self.paper),
-            width=self.width_px,
+            self.camera.columns,
+            self.camera.rows,
+            title=str(self.told["phantom"]["name"]),
+            ink=_hex(self.told["ink"]),
+            paper=_hex(self.told["background"]),
+            width=float(self.told["line_width_px"]),
         )
 
 
@@ -112,8 +114,8 @@ def wireframe(
     lines: int = DEFAULT_LINES,
     hidden_lines: bool = True,
     ink: Color = INK,
-    paper: Color = PAPER,
-    width_px: float = WIDTH,
+    background: Color = PAPER,
+    line_width_px: float = WIDTH,
     hide: Sequence[str] = (),
     cancelled: Callable[[], bool] | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -134,9 +136,9 @@ def wireframe(
         what lies behind a surface: then the operators hold too, for a line that they have taken
         away is not on the surface that is seen, and the walls that a difference cuts are drawn by
         the net of the leaf that cut them.
-    ink, paper
+    ink, background
         Linear red, green and blue.
-    width_px
+    line_width_px
         Of the lines.
     cancelled, progress
         As in :func:`phantom.tracing.pool.run_bands`; progress counts leaves.
@@ -144,11 +146,11 @@ def wireframe(
     Raises
     ------
     InvalidInputError
-        At ``/rings``, ``/lines``, ``/width_px`` or ``/hide/i``.
+        At ``/rings``, ``/lines``, ``/line_width_px`` or ``/hide/i``.
     CancelledError
         Where ``cancelled`` said yes.
     """
-    check_drawing(rings, lines, width_px)
+    check_drawing(rings, lines, line_width_px)
     shown = shown_leaves(phantom, hide)
     camera = camera_of(phantom, camera, shown)
     size = float(np.linalg.norm(phantom.bounds[1] - phantom.bounds[0]))
@@ -165,40 +167,42 @@ def wireframe(
         if progress is not None:
             progress(index + 1, len(placed))
     share = covered(
-        [run for stroke in strokes for run in stroke.runs], camera.rows, camera.columns, width_px
+        [run for stroke in strokes for run in stroke.runs],
+        camera.rows,
+        camera.columns,
+        line_width_px,
     )
-    rgb = share[..., None] * np.array(ink) + (1.0 - share)[..., None] * np.array(paper)
+    rgb = share[..., None] * np.array(ink) + (1.0 - share)[..., None] * np.array(background)
     told = {
         **identity(phantom.document),
         "rings": rings,
         "lines": lines,
         "hidden_lines": hidden_lines,
         "ink": list(ink),
-        "background": list(paper),
-        "width_px": width_px,
+        "background": list(background),
+        "line_width_px": line_width_px,
         "hidden": list(hide),
         "warnings": [] if share.any() else ["nothing of the phantom is in the picture"],
     }
-    picture = Picture(rgb, share, camera, "wireframe", told)
-    return Wireframe(tuple(strokes), picture, ink, paper, width_px)
+    return Wireframe(rgb, share, camera, "wireframe", told, tuple(strokes))
 
 
-def check_drawing(rings: int, lines: int, width_px: float) -> None:
+def check_drawing(rings: int, lines: int, line_width_px: float) -> None:
     """Refuse numbers that are out of range.
 
     Raises
     ------
     InvalidInputError
-        At ``/rings``, ``/lines`` or ``/width_px``.
+        At ``/rings``, ``/lines`` or ``/line_width_px``.
     """
     problems = [
         Problem(f"/{name}", "out_of_range", f"found {value}; expected 2 to {MAX_LINES}")
         for name, value in (("rings", rings), ("lines", lines))
         if not 2 <= value <= MAX_LINES
     ]
-    if not 0.1 <= width_px <= 100:
-        message = f"found {width_px:g}; expected 0.1 to 100 pixels"
-        problems.append(Problem("/width_px", "out_of_range", message))
+    if not 0.1 <= line_width_px <= 100:
+        message = f"found {line_width_px:g}; expected 0.1 to 100 pixels"
+        problems.append(Problem("/line_width_px", "out_of_range", message))
     if problems:
         raise InvalidInputError(problems)
 
@@ -321,7 +325,7 @@ def _thinned(run: Floats) -> Floats:
     return run[[*kept, len(run) - 1]]
 
 
-def _hex(color: Color) -> str:
+def _hex(color: Sequence[float]) -> str:
     """Return linear light as sRGB, ``#rrggbb``."""
     levels = np.rint(srgb(np.array(color, dtype=np.float64)) * 255).astype(int)
     return "#" + "".join(f"{level:02x}" for level in levels.tolist())
