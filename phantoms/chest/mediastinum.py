@@ -65,9 +65,9 @@ _MIDDLE: Final = (
 _NECKS_SHAPE: Final = SplineContour(
     type="spline",
     points=(
-        (0.0, -1.0), (0.32, -0.93), (0.46, -0.80), (0.58, -0.58), (0.70, -0.28), (0.85, 0.06),
-        (1.0, 0.32), (0.82, 0.58), (0.5, 0.88), (0.0, 1.0), (-0.5, 0.88), (-0.82, 0.58),
-        (-1.0, 0.32), (-0.85, 0.06), (-0.70, -0.28), (-0.58, -0.58), (-0.46, -0.80),
+        (0.0, -1.0), (0.32, -0.93), (0.46, -0.80), (0.58, -0.58), (0.70, -0.12), (0.85, 0.24),
+        (1.0, 0.55), (0.84, 0.78), (0.5, 0.95), (0.0, 1.0), (-0.5, 0.95), (-0.84, 0.78),
+        (-1.0, 0.55), (-0.85, 0.24), (-0.70, -0.12), (-0.58, -0.58), (-0.46, -0.80),
         (-0.32, -0.93),
     ),
 )  # fmt: skip
@@ -152,7 +152,9 @@ def middle(cage: Cage) -> Solid:
         y = spine_y(float(z))
         half = 19.5 + 3.0 * math.exp(-(((z + 60.0) / 90.0) ** 2))
         rows.append((float(z), -half, half, y - 15.0, y + 46.0))
-        behind.append((float(z), -66.0, 66.0, y + 1.0, y + 57.0))
+    for z in range(-240, 121, 40):
+        y = spine_y(float(z))
+        behind.append((float(z), -66.0, 66.0, y + 1.0, y + 47.0))
     beside = column("tissue beside the spine", fitted(f, rows), "muscle")
     necks = column("muscle about the ribs' necks", fitted(f, behind), "muscle", _NECKS_SHAPE)
     return union(core, beside, necks)
