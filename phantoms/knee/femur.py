@@ -73,6 +73,8 @@ _ROOF: Final = ((9.0, 9.0), (33.0, 39.0))
 """Two points (y, z) of the roof of the notch, from the trochlea up and back."""
 _NOTCH_DEPTH: Final = 15.0
 _TAKEN_WALL_MM: Final = 1.4
+_BETWEEN: Final = ((0.0, 22.0, -1.5), (16.0, 30.0, 8.0))
+"""Center and semi-axes of what rounds the inner edges of the condyles."""
 # The groove of the trochlea: degrees round the bend, distance from its middle, and the semi-axes
 # of the ellipsoid across, outward and along.
 _GROOVE: Final = (46.0, 45.0, (17.0, 8.5, 40.0))
@@ -184,7 +186,14 @@ def tilted_ellipsoid(
 
 def _taken(sizes: Sizes, wall_mm: float) -> list[Solid]:
     """Return what is taken away of the condyles, or of what is a wall's thickness inside."""
-    return [_notch(sizes, wall_mm), _groove(sizes, wall_mm)]
+    across, along = scales(sizes)
+    (x, y, z), (a, b, c) = _BETWEEN
+    between = ellipsoid(
+        "between the condyles" if wall_mm == 0.0 else "wall between the condyles",
+        (x, y * along, z * along),
+        (a * across + wall_mm, b * along + wall_mm, c * along + wall_mm),
+    )
+    return [_notch(sizes, wall_mm), _groove(sizes, wall_mm), between]
 
 
 def _groove(sizes: Sizes, wall_mm: float) -> Solid:
