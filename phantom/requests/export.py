@@ -19,8 +19,12 @@ from phantom.export.files import (
     DEFAULT_TOLERANCE_MM,
     is_volume,
 )
+from phantom.export.models import check_what
+from phantom.export.tables import check_table_energy
+from phantom.export.volumes import check_spacing
 from phantom.requests.subject import Subject, read_request
 from phantom.scene import Phantom
+from phantom.tessellation import check_tolerance
 
 EXPORT_WORDS: Final = {
     name: (name,) for name in ("what", "tolerance_mm", "spacing_mm", "energy_kev")
@@ -134,6 +138,12 @@ def plan_export(
     ]
     if problems:
         raise InvalidInputError(problems)
+    check_table_energy(request.energy_kev)
+    if volume:
+        check_spacing(request.spacing_mm)
+    else:
+        check_what(request.what)
+        check_tolerance(request.tolerance_mm)
     chosen = {name: getattr(request, name) for name in EXPORT_WORDS if name not in idle}
     beside = None if table is None else Path(table)
     return ExportPlan(phantom, request, Path(output), beside, chosen)
