@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from phantom.document import Model, told
-from phantom.document.base import Length, Number
+from phantom.document.base import Length, Number, refuse
 from phantom.errors import InvalidInputError, Problem
 from phantom.export import Exported, What, export_mesh, export_volume
 from phantom.export.files import (
@@ -35,6 +35,13 @@ _OF_MESHES: Final = ("what", "tolerance_mm")
 _OF_VOLUMES: Final = ("spacing_mm",)
 
 
+def _spacing(given: Any) -> tuple[float, float, float]:
+    try:
+        return check_spacing(given)
+    except InvalidInputError as error:
+        refuse("out_of_range", ((), error.problems[0].message))
+
+
 class ExportRequest(Model):
     """What is written, and how finely; all but the phantom has a default."""
 
@@ -52,9 +59,10 @@ class ExportRequest(Model):
         Length, told("Tolerance", "mm", "How far a triangle may lie from the surface.")
     ] = DEFAULT_TOLERANCE_MM
     spacing_mm: Annotated[
-        Length | tuple[Length, Length, Length],
+        tuple[float, float, float],
+        BeforeValidator(_spacing),
         told("Spacing", "mm", "Of voxels: one length, or three along x, y and z."),
-    ] = DEFAULT_SPACING_MM
+    ] = (DEFAULT_SPACING_MM,) * 3
     energy_kev: Annotated[
         Annotated[Number, Field(gt=0)],
         told("Energy", "keV", "Photon energy of the attenuations in the table."),
@@ -139,9 +147,7 @@ def plan_export(
     if problems:
         raise InvalidInputError(problems)
     check_table_energy(request.energy_kev)
-    if volume:
-        check_spacing(request.spacing_mm)
-    else:
+    if not volume:
         check_what(request.what)
         check_tolerance(request.tolerance_mm)
     chosen = {name: getattr(request, name) for name in EXPORT_WORDS if name not in idle}
