@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from itertools import pairwise
 from typing import Final
 
 from phantom.document import Solid, SplineContour
 from phantoms.chest.cage import Cage
 from phantoms.chest.courses import AORTA, ARTERIES, BRONCHI, TRACHEA, VEINS, Course
 from phantoms.chest.frame import MODEL_HEART_MM, Frame
-from phantoms.chest.shapes import Row, column, cone, fitted, sampled, tube
+from phantoms.chest.shapes import Row, chain, column, fitted, sampled, tube
 from phantoms.chest.spine import spine_y
 from phantoms.parts import union
 
@@ -112,7 +111,7 @@ def great_vessels(frame: Frame) -> Solid:
     return union(
         aorta(frame),
         *_tubes(frame, ARTERIES, scale, "blood"),
-        *_tubes(frame, VEINS, scale, "blood"),
+        *_chains(frame, VEINS, 0.0, "", "blood"),
     )
 
 
@@ -120,26 +119,29 @@ def airways(frame: Frame) -> Solid:
     """Return the air in the trachea and the first bronchi."""
     return union(
         *_tubes(frame, {"trachea": TRACHEA}, frame.bone, "air"),
-        *_cones(frame, BRONCHI, 0.0, "", "air"),
+        *_chains(frame, BRONCHI, 0.0, "", "air"),
     )
 
 
 def bronchial_walls(frame: Frame) -> Solid:
     """Return the walls of the bronchi where they run through lung."""
-    return union(*_cones(frame, BRONCHI, 1.2, "wall of ", "soft_tissue"))
+    return union(*_chains(frame, BRONCHI, 1.2, "wall of ", "soft_tissue"))
 
 
-def _cones(
+def _chains(
     frame: Frame, tables: Mapping[str, Course], more_mm: float, before: str, material: str
 ) -> list[Solid]:
-    """Return tubes drawn as cones end to end, so much wider."""
-    found: list[Solid] = []
-    for name, table in tables.items():
-        for i, ((a, ra), (b, rb)) in enumerate(pairwise(table), 1):
-            radii = (ra * frame.bone + more_mm, rb * frame.bone + more_mm)
-            label = f"{before}{name} {i}"
-            found.append(cone(label, frame.at(*a), frame.at(*b), radii, material))
-    return found
+    """Return tubes drawn as chains of cones, so much wider."""
+    return [
+        part
+        for name, table in tables.items()
+        for part in chain(
+            before + name,
+            frame.path([p for p, _ in table]),
+            [r * frame.bone + more_mm for _, r in table],
+            material,
+        )
+    ]
 
 
 def middle(cage: Cage) -> Solid:
