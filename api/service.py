@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from api.jobs import Jobs, default_folder
 from api.settings import Settings
 from api.work import Workshop
 from phantom.requests.limits import Limits
@@ -16,6 +17,7 @@ class Service:
     settings: Settings
     limits: Limits
     workshop: Workshop
+    jobs: Jobs
 
     @classmethod
     def of(cls, settings: Settings) -> Service:
@@ -26,4 +28,12 @@ class Service:
             rays=settings.max_rays,
             result_bytes=settings.max_result_bytes,
         )
-        return cls(settings, limits, Workshop(settings.renders, settings.queue))
+        jobs = Jobs(
+            settings.jobs_folder or default_folder(),
+            ttl_hours=settings.jobs_ttl_hours,
+            max_bytes=settings.jobs_max_bytes,
+            max_images=settings.jobs_max_images,
+            workers=settings.jobs_workers,
+            limits=limits,
+        )
+        return cls(settings, limits, Workshop(settings.renders, settings.queue), jobs)

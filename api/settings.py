@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -45,6 +46,21 @@ class Settings(BaseModel):
 
     queue: int = Field(32, ge=0)
     """Calls that may wait for their turn; beyond them the answer is 429."""
+
+    jobs_folder: Path | None = None
+    """Where data sets are made and kept; by default with the user's other states."""
+
+    jobs_ttl_hours: float = Field(168, gt=0, allow_inf_nan=False)
+    """Hours that a data set is kept after it is finished."""
+
+    jobs_max_bytes: int = Field(100 * 10**9, ge=1)
+    """Most that all data sets may take together."""
+
+    jobs_max_images: int = Field(1_000_000, ge=1)
+    """Most images of one data set."""
+
+    jobs_workers: int = Field(1, ge=1, le=1024)
+    """Processes that make the images of data sets."""
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str]) -> Settings:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         Problem,
         UnknownPhantomError,
     )
+    from phantom.export import export_mesh, export_volume, label_volume
     from phantom.imaging import (
         Absorber,
         Acquisition,
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     )
     from phantom.scene import Phantom, load
     from phantom.stereo import Screen
+    from phantom.tessellation import tessellate
     from phantom.tracing import (
         FirstHits,
         Intervals,
@@ -56,9 +58,12 @@ if TYPE_CHECKING:
         Picture,
         PointLight,
         Tone,
+        Wireframe,
         preset_camera,
+        preview,
         render,
         render_pair,
+        wireframe,
     )
 
     __version__: str
@@ -96,20 +101,27 @@ __all__ = [
     "Tone",
     "UnknownPhantomError",
     "View",
+    "Wireframe",
     "__version__",
     "datasets",
+    "export_mesh",
+    "export_volume",
     "first_hits",
     "intervals",
+    "label_volume",
     "library",
     "load",
     "materials_at",
     "path_lengths",
     "preset_camera",
     "preset_view",
+    "preview",
     "radiograph",
     "render",
     "render_pair",
     "stereo_pair",
+    "tessellate",
+    "wireframe",
 ]
 
 _HOMES = {
@@ -121,6 +133,7 @@ _HOMES = {
         "Problem",
         "UnknownPhantomError",
     ),
+    "phantom.export": ("export_mesh", "export_volume", "label_volume"),
     "phantom.imaging": (
         "Absorber",
         "Acquisition",
@@ -143,6 +156,7 @@ _HOMES = {
     ),
     "phantom.scene": ("Phantom", "load"),
     "phantom.stereo": ("Screen",),
+    "phantom.tessellation": ("tessellate",),
     "phantom.tracing": (
         "FirstHits",
         "Intervals",
@@ -159,9 +173,12 @@ _HOMES = {
         "Picture",
         "PointLight",
         "Tone",
+        "Wireframe",
         "preset_camera",
+        "preview",
         "render",
-    "render_pair",
+        "render_pair",
+        "wireframe",
     ),
 }
 _HOME = {name: home for home, found in _HOMES.items() for name in found}

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from phantom.compiled.build import Compiled, build
 from phantom.compiled.surfacing import surfacing
 
 Floats = NDArray[np.float64]
+Kept = TypeVar("Kept")
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +32,7 @@ class Phantom:
 
     document: doc.Document
     compiled: Compiled
+    _kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def material_names(self) -> tuple[str, ...]:
@@ -83,6 +86,23 @@ class Phantom:
         if named is not None:
             return np.array(named, dtype=np.float64)
         return np.asarray(0.5 * (self.bounds[0] + self.bounds[1]))
+
+    def kept(self, name: str, make: Callable[[], Kept], *, anew: bool = False) -> Kept:
+        """Return what is made of the phantom once and kept with it, such as a tessellation.
+
+        Parameters
+        ----------
+        name
+            Whose place it is.
+        make
+            Makes it; two threads that ask at once may both do so.
+        anew
+            Make it again, in place of what was kept.
+        """
+        if anew or name not in self._kept:
+            self._kept[name] = make()
+        found: Kept = self._kept[name]
+        return found
 
 
 def load(source: Path | str | bytes | Mapping[str, object] | doc.Document) -> Phantom:

@@ -14,11 +14,12 @@ from api.negotiation import negotiate
 from api.problems import PROBLEMS
 from api.routes.radiographs import BINARY, entity_tag
 from api.service import Service
-from phantom.encode import FORMATS, encode
+from phantom.encode import FORMATS, encode, format_named
 from phantom.encode.content import COLOR
-from phantom.requests.render import RenderPlan, RenderRequest, plan_render
+from phantom.encode.formats import SVG
+from phantom.requests.draw import DrawPlan, DrawRequest, plan_draw, quantity_of
 
-FORMS: Final = tuple(format.media_type for format in FORMATS if COLOR in format.quantities)
+FORMS: Final = (*(f.media_type for f in FORMATS if COLOR in f.quantities), SVG.media_type)
 """What an answer may be, the first where the caller does not mind; JSON is all but the pixels."""
 
 ANSWERS: Final[dict[int | str, dict[str, Any]]] = {
@@ -41,21 +42,23 @@ def routes(service: Service) -> APIRouter:
         summary="A picture of any phantom in visible light",
         response_class=Response,
         responses=ANSWERS,
-        openapi_extra=body((JSON, reference(RenderRequest))),
+        openapi_extra=body((JSON, reference(DrawRequest))),
     )
     async def post(request: Request) -> Response:
         form = negotiate(request.headers.get("accept"), FORMS)
         tree = await read_json(request, service.settings.max_json_bytes)
 
-        def look(_: object) -> RenderPlan:
-            return plan_render(tree, (), service.limits)
+        def look(_: object) -> DrawPlan:
+            return plan_draw(tree, (), service.limits)
 
         planned = await service.workshop.run(request, look)
+        format = format_named(form)
+        planned.check_format(format)
 
         def make(cancelled: Any) -> tuple[bytes, dict[str, str]]:
             made = planned.render(cancelled=cancelled)
             told = {"X-Phantom-Geometry": json.dumps(made.geometry(), separators=(",", ":"))}
-            return encode(made, COLOR, planned.request.tone, form).data, told
+            return encode(made, quantity_of(format), planned.request.tone, form).data, told
 
         content, told = await service.workshop.run(request, make)
         headers = {"ETag": entity_tag(planned.fingerprint(), form), "Vary": "Accept"}

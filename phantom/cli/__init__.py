@@ -9,7 +9,19 @@ import gc
 
 import typer
 
-from phantom.cli import dataset, documents, library, radiograph, render, serve, stereo
+from phantom.cli import (
+    dataset,
+    documents,
+    export,
+    library,
+    preview,
+    radiograph,
+    render,
+    render_pair,
+    serve,
+    stereo,
+    wireframe,
+)
 
 app = typer.Typer(
     name="phantom",
@@ -25,6 +37,10 @@ app.command("validate")(documents.validate)
 app.command("radiograph")(radiograph.make)
 app.command("stereo")(stereo.make)
 app.command("render")(render.make)
+app.command("render-pair")(render_pair.make)
+app.command("preview")(preview.make)
+app.command("wireframe")(wireframe.make)
+app.command("export")(export.make)
 app.add_typer(dataset.app, name="dataset")
 app.command("serve")(serve.serve)
 

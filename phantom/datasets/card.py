@@ -93,6 +93,8 @@ def _files(design: Design) -> str:
         else "grey levels"
     )
     lines.append(f"- `{stem}.png`: {pixels}")
+    if design.stereo is not None and design.stereo.mono != "single":
+        lines.append(f"- `{stem}.right.png`: the same for the right eye")
     if kept.codes:
         lines.append(
             f"- `{stem}.u16.npy`: codes of 16 bits; one over `codes_per_unit` is its value"

@@ -16,6 +16,7 @@ from phantom.datasets.storage import Storage
 from phantom.document import Model, validate_model
 from phantom.document.words import arranged
 from phantom.errors import InvalidInputError, Problem, pointer, prefixed
+from phantom.imaging.stereo import placed
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest
 
@@ -35,6 +36,7 @@ def check(design: Design, limits: Limits | None = None) -> RadiographPlan:
         Every problem found, with the path of its field in the design.
     """
     problems = [*_counts(design), *_extras(design)]
+    countable = not problems
     if isinstance(design.phantom, DrawnPhantom):
         try:
             problems += _of_library(design, design.phantom)
@@ -44,7 +46,8 @@ def check(design: Design, limits: Limits | None = None) -> RadiographPlan:
         fields = [name for name in ("abnormalities", "population") if getattr(design, name)]
         told = "found it with a document; expected it with a phantom of the library"
         problems += [Problem(f"/{name}", "no_effect", told) for name in fields]
-    problems += _words(design)
+    if countable:
+        problems += _words(design)
     if problems:
         raise InvalidInputError(arranged(problems))
     return _first(design, limits)
@@ -64,6 +67,8 @@ def _first(design: Design, limits: Limits | None) -> RadiographPlan:
         if limits is not None:
             detector = planned.view.detector
             limits.check_radiograph(detector.columns, detector.rows, len(of.phantom.material_names))
+        if design.stereo is not None:
+            placed(of.phantom, planned.view, design.stereo)
         if design.outputs.form == "presentation" and planned.presentation.mode == "window":
             _ = planned.presentation.window
         plans.append(planned)
@@ -176,6 +181,8 @@ def expected_bytes(design: Design, planned: RadiographPlan) -> int:
     picture = BYTES_A_PIXEL["noisy" if noisy else "ideal"] * pixels
     if kept.codes:
         picture += BYTES_A_PIXEL["codes"] * pixels
+    if design.stereo is not None and design.stereo.mono != "single":
+        picture *= 2.0
     if design.twins:
         healthy = 1.0
         for asked in design.abnormalities:

@@ -28,7 +28,9 @@ CHUNK_IMAGES: Final = 8
 AHEAD: Final = 2
 """Tasks for each thread of the cluster that are sent before any is done."""
 
-LOOK_S: Final = 0.5
+LOOK_S: Final = 0.05
+"""How often the futures are looked at."""
+
 CONNECT_S: Final = 20.0
 
 Outcome = list[Record | tuple[int, str]]
@@ -163,17 +165,11 @@ class _Dispatch:
 
     def _receive(self) -> None:
         """Enter what has come back; a scheduler that is gone has lost every future."""
-        from distributed import wait
-        from distributed.comm.core import CommClosedError
-
         if self._client.status != "running":
             raise OSError(f"its client is {self._client.status}")
-        try:
-            wait(list(self._sent), timeout=LOOK_S, return_when="FIRST_COMPLETED")  # type: ignore[no-untyped-call]
-        except TimeoutError:
+        if not any(future.done() for future in self._sent):
+            time.sleep(LOOK_S)
             return
-        except CommClosedError as error:
-            raise OSError(str(error)) from error
         for future in [f for f in self._sent if f.done()]:
             owner, unit, numbers = self._sent.pop(future)
             if future.status == "finished":

@@ -19,6 +19,7 @@ from phantom.library import Population
 from phantom.requests.subject import OwnPhantom
 from phantom.requests.viewpoint import PlacedView, PresetView, Viewpoint
 from phantom.requests.words import WHOLE, WORDS
+from phantom.stereo import Stereo
 
 MOST_IMAGES: Final = 100_000_000
 """An index has eight digits."""
@@ -170,6 +171,9 @@ class Design(Model):
             "Dose, noise and detector; by default the phantom's dose, else 2.5 uGy; null for none.",
         ),
     ] = Field(default_factory=Acquisition)
+    stereo: Annotated[
+        Stereo | None, told("Stereo", "none", "Two eyes, or an arm without depth; null for one.")
+    ] = None
     vary: Annotated[
         dict[Literal[VARIED], Value],  # type: ignore[valid-type]
         told("Vary", "none", "Words of a request, such as kvp, drawn anew for each image."),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,15 @@ from phantom.encode import archive, encode, npy, png, truth_files
 from phantom.encode.coco import coco
 from phantom.encode.coding import Coding, coding
 from phantom.encode.content import Content
-from phantom.imaging import Radiograph, Truth, document_sha256
+from phantom.imaging import (
+    Radiograph,
+    StereoPair,
+    Truth,
+    document_sha256,
+    ground_truth,
+    radiograph,
+)
+from phantom.imaging.stereo import EyePicture, pair_of
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest, plan_of
 
 if TYPE_CHECKING:
@@ -59,6 +67,37 @@ class Made:
     thumbnail: str | None = None
 
 
+class Shot(NamedTuple):
+    """What an exposure gives: a picture, or one for each eye.
+
+    Attributes
+    ----------
+    left
+        The picture; the left eye's.
+    right
+        The right eye's; the same one for the arm without depth.
+    pair
+        Both of them, of a pair.
+    """
+
+    left: Radiograph
+    right: Radiograph | None = None
+    pair: StereoPair | None = None
+
+    @property
+    def images(self) -> tuple[Radiograph, ...]:
+        """One or two."""
+        return (self.left,) if self.right is None else (self.left, self.right)
+
+    @property
+    def pictures(self) -> dict[str, Radiograph | EyePicture]:
+        """The same as they are shown, by what their files' endings begin with."""
+        shown: list[Any] = [*self.images]
+        if self.pair is not None:
+            shown = [*self.pair.pictures.values()]
+        return dict(zip(("", "right."), shown, strict=False))
+
+
 @dataclass(slots=True)
 class Maker:
     """Makes the images of one design, one at a time; the last case is kept for its next view.
@@ -87,10 +126,8 @@ class Maker:
         at = place(self.design, index)
         of = self.case(at)
         planned = self.plan(at, of)
-        made = planned.render(workers=self.threads)
-        truth = planned.tell(workers=self.threads) if planned.truth else None
-        twin = self.twin(planned, of)
-        return self.kept(at, of, planned, made, truth, twin)
+        shot = self.shoot(planned)
+        return self.kept(at, of, planned, shot, self.tell(planned, shot), self.twin(of, shot))
 
     def case(self, at: Place) -> Case:
         """Return the case of an image."""
@@ -123,48 +160,98 @@ class Maker:
             tree["truth"] = [*{*tree["truth"], *OF_MASKS}]
         return plan_of(validate_model(RadiographRequest, {**tree, "phantom": subject}), of.phantom)
 
-    def twin(self, planned: RadiographPlan, of: Case) -> Radiograph | None:
-        """Return the same picture, of the same noise, with nothing wrong; None without a twin."""
+    def shoot(self, planned: RadiographPlan) -> Shot:
+        """Return the picture, or the pair where the design has two eyes."""
+        eyes = self.design.stereo
+        if eyes is None:
+            return Shot(planned.render(workers=self.threads))
+        pair = pair_of(
+            planned.phantom,
+            planned.view,
+            planned.beam,
+            eyes,
+            acquisition=planned.acquisition,
+            noise=planned.noise,
+            workers=self.threads,
+        )
+        return Shot(pair.left, None if eyes.mono == "single" else pair.right, pair)
+
+    def tell(self, planned: RadiographPlan, shot: Shot) -> tuple[Truth, ...]:
+        """Return the ground truth of each image of a shot; none where none is kept."""
+        if not planned.truth:
+            return ()
+        return tuple(
+            ground_truth(planned.phantom, image.view, planned.truth, workers=self.threads)
+            for image in shot.images
+        )
+
+    def twin(self, of: Case, shot: Shot) -> Shot | None:
+        """Return the same pictures, of the same noise, with nothing wrong; None without a twin.
+
+        Views are those of the shot, which may have been placed around what is wrong.
+        """
         if of.twin is None:
             return None
-        return replace(planned, phantom=of.twin).render(workers=self.threads)
+        phantom = of.twin
+
+        def again(image: Radiograph) -> Radiograph:
+            return radiograph(
+                phantom,
+                image.view,
+                image.beam,
+                acquisition=image.acquisition,
+                noise=image.noise,
+                workers=self.threads,
+            )
+
+        left = again(shot.left)
+        if shot.right is None or shot.right is shot.left:
+            return Shot(left, None if shot.right is None else left)
+        return Shot(left, again(shot.right))
 
     def kept(
         self,
         at: Place,
         of: Case,
         planned: RadiographPlan,
-        made: Radiograph,
-        truth: Truth | None,
-        twin: Radiograph | None,
+        shot: Shot,
+        truths: tuple[Truth, ...],
+        twin: Shot | None,
     ) -> Made:
         """Return what is kept of an image, encoded."""
-        design, kept = self.design, self.design.outputs
-        files = self._pictures(planned, made, "")
+        design, kept, made = self.design, self.design.outputs, shot.left
+        files: dict[str, bytes] = {}
+        pictures = shot.pictures
+        for prefix, picture in pictures.items():
+            files |= self._pictures(planned, picture, prefix)
         if twin is not None:
-            files |= self._pictures(planned, twin, "twin.")
-        annotations: tuple[Mapping[str, Any], ...] = ()
-        if truth is not None:
+            for prefix, picture in twin.pictures.items():
+                files |= self._pictures(planned, picture, f"twin.{prefix}")
+        for prefix, truth in zip(pictures, truths, strict=False):
             if kept.masks:
-                files["mask.png"] = png(mask(truth, of_findings=bool(design.abnormalities)), {})
+                white = mask(truth, of_findings=bool(design.abnormalities))
+                files[f"{prefix}mask.png"] = png(white, {})
             if design.truth:
                 told = replace(truth, kinds=tuple(k for k in truth.kinds if k in design.truth))
-                name = file_name(design, at, "png")
-                files["truth.zip"] = archive(truth_files(told, name))
-            if kept.coco:
-                annotations = annotated(truth)
+                name = file_name(design, at, f"{prefix}png")
+                files[f"{prefix}truth.zip"] = archive(truth_files(told, name))
+        first = truths[0] if truths else None
+        annotations = annotated(first) if first is not None and kept.coco else ()
         document = of.phantom.document
         if kept.documents and at.view == 0:
             tree = document.model_dump(mode="json", exclude_none=True)
             files["document.json"] = f"{text(tree)}\n".encode()
-        row = self._row(at, of, planned, made, truth)
+        row = self._row(at, of, shot, first)
         small = thumbnail(made, design.quantity) if at.number in shown(design) else None
         return Made(at, files, row, annotations, small)
 
-    def _pictures(self, planned: RadiographPlan, made: Radiograph, prefix: str) -> dict[str, bytes]:
+    def _pictures(
+        self, planned: RadiographPlan, made: Radiograph | EyePicture, prefix: str
+    ) -> dict[str, bytes]:
         """Return the picture, and the codes beside it where they are asked for."""
         design, quantity = self.design, self.design.quantity
-        chosen = linear(made, quantity)
+        own = made.radiograph if isinstance(made, EyePicture) else made
+        chosen = linear(own, quantity)
         files: dict[str, bytes] = {}
         codes = chosen.codes(made.quantity(quantity))
         if design.outputs.form == "linear":
@@ -182,11 +269,10 @@ class Maker:
         self,
         at: Place,
         of: Case,
-        planned: RadiographPlan,
-        made: Radiograph,
+        shot: Shot,
         truth: Truth | None,
     ) -> dict[str, Any]:
-        design = self.design
+        design, made = self.design, shot.left
         recommended = "ap"
         if isinstance(design.phantom, DrawnPhantom):
             recommended = library.entry(design.phantom.name).views[0]
@@ -212,6 +298,11 @@ class Maker:
         row["pitch_mm"] = made.view.detector.pitch_xy_mm[0]
         row["open_field"] = made.open_field
         row["codes_per_unit"] = linear(made, design.quantity).codes_per_unit
+        if shot.pair is not None and shot.pair.stereo.mono is None:
+            eyes = shot.pair.eyes
+            apart = {"baseline_mm": eyes.baseline_mm, "angle_deg": eyes.angle_deg}
+            row |= {f"stereo_{name}": value for name, value in apart.items() if value is not None}
+            row["disparity_deg"] = shot.pair.whole.worst_deg
         row["document_sha256"] = document_sha256(of.phantom.document)
         return row
 

@@ -25,7 +25,7 @@ SET_ASIDE: Final = "set_aside.jsonl"
 
 def is_open(design: Design, ending: str) -> bool:
     """Tell whether a file of this ending stands with the pictures, and not with the truth."""
-    return ending in OPEN if design.blind else ending != "truth.zip"
+    return ending in OPEN if design.blind else not ending.endswith("truth.zip")
 
 
 def file_name(design: Design, at: Place, ending: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import heapq
-import io
 import json
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -54,7 +53,7 @@ class Parts:
         problems = []
         for name in self._names:
             with self._where.reading(name) as stream:
-                about = json.loads(io.TextIOWrapper(stream, "utf-8").readline())
+                about = json.loads(stream.readline())
             wanted = max(wanted, about["parts"])
             if about["design"] != digest:
                 message = f"found {name} of another design"
@@ -76,9 +75,8 @@ class Parts:
             lists = []
             for name in self._names:
                 stream = stack.enter_context(self._where.reading(name))
-                lines = io.TextIOWrapper(stream, "utf-8")
-                lines.readline()
-                lists.append(_parsed(lines))
+                stream.readline()
+                lists.append(_parsed(stream))
             yield from heapq.merge(*lists, key=lambda entry: entry[0])
 
 

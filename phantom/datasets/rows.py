@@ -19,7 +19,9 @@ PICTURES: Final = {
     "file_name": "png",
     "right_file_name": "right.png",
     "mask_file_name": "mask.png",
+    "right_mask_file_name": "right.mask.png",
     "twin_file_name": "twin.png",
+    "right_twin_file_name": "twin.right.png",
 }
 """Columns of pictures, as imagefolder wants them called."""
 
@@ -27,6 +29,7 @@ OTHERS: Final = {
     "codes": "u16.npy",
     "right_codes": "right.u16.npy",
     "truth": "truth.zip",
+    "right_truth": "right.truth.zip",
     "document": "document.json",
 }
 """Columns of other files."""
@@ -56,7 +59,9 @@ def beside(design: Design, record: Row, row: Row, folder: str = "") -> Row:
         if ending in endings and is_open(design, ending)
     }
     if design.twins and not design.blind:
-        found.setdefault("twin_file_name", found["file_name"])
+        for eye in ("", "right_"):
+            if f"{eye}file_name" in found:
+                found.setdefault(f"{eye}twin_file_name", found[f"{eye}file_name"])
     if design.outputs.documents and not design.blind:
         number = record["row"]["index"]
         first = place(design, number - number % len(design.views))

@@ -17,6 +17,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
@@ -49,7 +50,15 @@ class _Worker:
     image: int | None = None
     since: float = 0.0
     ready: bool = False
-    over: bool = False
+    listener: threading.Thread | None = None
+
+    def bury(self) -> None:
+        """Let go of what is left of a process that has ended, or is about to."""
+        assert self.process.stdin is not None
+        with suppress(BrokenPipeError):
+            self.process.stdin.close()
+        if self.listener is not None:
+            self.listener.join()
 
 
 @dataclass(slots=True)
@@ -132,12 +141,11 @@ class Supervisor:
             "lease_s": self.lease_s * max(1, self._largest_unit()),
             "threads": max(1, default_workers() // wanted),
         }
-        try:
+        with suppress(BrokenPipeError):  # it has died already, which is found as with any other
             process.stdin.write(json.dumps(job) + "\n")
             process.stdin.flush()
-        except BrokenPipeError:
-            pass  # it has died already, which is found as with any other
-        threading.Thread(target=self._listen, args=(worker,), daemon=True).start()
+        worker.listener = threading.Thread(target=self._listen, args=(worker,), daemon=True)
+        worker.listener.start()
         self._alive.append(worker)
 
     def _largest_unit(self) -> int:
@@ -154,6 +162,7 @@ class Supervisor:
             except ValueError:
                 continue  # cut off as it died
             self._steps.put((worker, step))
+        worker.process.stdout.close()
         worker.process.wait()
         self._steps.put((worker, {"step": "ended"}))
 
@@ -176,8 +185,6 @@ class Supervisor:
                 counts = counts._replace(open=counts.open - 1, aside=counts.aside + 1)
             if progress is not None:
                 progress(counts)
-        elif kind == "out":
-            worker.over = True
         elif kind == "full":
             raise DiskFullError(step["error"])
         elif kind == "ended":
@@ -189,6 +196,7 @@ class Supervisor:
     def _buried(self, worker: _Worker, counts: Counts) -> Counts:
         """Free what a dead worker had; the image it was making has failed."""
         self._alive.remove(worker)
+        worker.bury()
         if worker.image is not None:
             if self.ledger.failed(worker.image, self._death(worker)):
                 counts = counts._replace(open=counts.open - 1, aside=counts.aside + 1)
@@ -220,7 +228,7 @@ class Supervisor:
         for worker in self._alive:
             worker.process.kill()
         for worker in self._alive:
-            worker.process.wait()
+            worker.bury()
             self.ledger.release(worker.owner)
         self._alive.clear()
 

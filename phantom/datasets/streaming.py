@@ -28,6 +28,7 @@ class Stream:
     - ``image``: float32 (rows, columns), the quantity; a signal as a share of the open field
     - ``mask``: uint8 (rows, columns), 0 and 1, where the design keeps masks
     - ``twin``: float32, where it keeps twins; of a healthy case the image itself
+    - ``right``, ``right_mask``, ``right_twin``: the right eye's, where it has two
     - ``label``: 1 with an abnormality, else 0
     - ``index``, ``person``, ``case``: numbers of the image, the person, the case
 
@@ -66,7 +67,7 @@ class Stream:
             self._maker = Maker(self.design, self._threads)
         of = self._maker.case(at)
         planned = self._maker.plan(at, of)
-        made = planned.render(workers=self._threads)
+        shot = self._maker.shoot(planned)
         quantity = self.design.quantity
 
         def values(radiograph: Any) -> NDArray[np.float32]:
@@ -74,14 +75,18 @@ class Stream:
             found: NDArray[np.float32] = (radiograph.quantity(quantity) / full).astype(np.float32)
             return found
 
-        item: dict[str, Any] = {"image": values(made)}
+        names = ("", "right_")[: len(shot.images)]
+        item: dict[str, Any] = {}
+        for name, image in zip(names, shot.images, strict=True):
+            item[name.rstrip("_") or "image"] = values(image)
         if self.design.outputs.masks:
-            truth = planned.tell(workers=self._threads)
-            white = mask(truth, of_findings=bool(self.design.abnormalities))
-            item["mask"] = (white > 0).astype(np.uint8)
+            for name, truth in zip(names, self._maker.tell(planned, shot), strict=True):
+                white = mask(truth, of_findings=bool(self.design.abnormalities))
+                item[f"{name}mask"] = (white > 0).astype(np.uint8)
         if self.design.twins:
-            twin = self._maker.twin(planned, of)
-            item["twin"] = item["image"].copy() if twin is None else values(twin)
+            twin = self._maker.twin(of, shot) or shot
+            for name, image in zip(names, twin.images, strict=True):
+                item[f"{name}twin"] = values(image)
         item |= {"label": int(bool(of.subject.abnormalities)), "index": at.number}
         return {**item, "person": at.person, "case": at.case_number(self.design)}
 

@@ -1,7 +1,7 @@
 """A worker: a process that claims units, makes them, and ends when its supervisor does.
 
 ``python -m phantom.datasets.worker`` reads one line of JSON, the job, and tells one line of JSON a
-step: ``ready``, ``begin`` and ``done`` of an image, ``failed``, ``full`` and ``out``. Its input
+step: ``ready``, ``begin`` and ``done`` of an image, ``failed``, and ``full``. Its input
 stays open for as long as the supervisor lives; where it ends, the worker does, at once.
 """
 
@@ -65,8 +65,6 @@ class Work:
                         self._image(number)
         except DiskFullError as error:
             self._tell("full", error=str(error))
-        else:
-            self._tell("out")
 
     def _image(self, number: int) -> None:
         self._begin(number)

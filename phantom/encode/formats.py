@@ -34,6 +34,9 @@ from phantom.errors import InvalidInputError, Problem
 SHOWN: Final = (*IMAGES, COLOR)
 QUANTITIES: Final = (*IMAGES, "path_lengths", COLOR)
 
+DRAWING: Final = "drawing"
+"""What an SVG holds: the lines of a wireframe, as the bytes of its file."""
+
 Known = TypeVar("Known")
 
 
@@ -102,10 +105,15 @@ FORMATS: Final[tuple[Format, ...]] = (
         "json", (".json",), "application/json", QUANTITIES, nothing, lambda c: sidecar(c.beside)
     ),
 )
-"""Every format, the default first."""
+"""Every format of pixels, the default first."""
+
+SVG: Final = Format(
+    "svg", (".svg",), "image/svg+xml", (DRAWING,), numbers, lambda c: c.only.tobytes()
+)
+"""Lines instead of pixels: a wireframe's alone."""
 
 _OF_EXTENSION: Final[Mapping[str, Format]] = {
-    extension: known for known in FORMATS for extension in known.extensions
+    extension: known for known in (*FORMATS, SVG) for extension in known.extensions
 }
 
 
@@ -145,7 +153,7 @@ def format_named(name: str) -> Format:
     InvalidInputError
         There is none (``/format``).
     """
-    for known in FORMATS:
+    for known in (*FORMATS, SVG):
         if name in (known.name, known.media_type):
             return known
     names = ", ".join(f"{known.name} ({known.media_type})" for known in FORMATS)

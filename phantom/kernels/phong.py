@@ -28,6 +28,78 @@ OFF_SURFACE = 100.0
 
 
 @kernel
+def shine(
+    nx: float, ny: float, nz: float, hx: float, hy: float, hz: float, exponent: float
+) -> float:
+    """Return ``(H.N)^n``, H of any length; 0 where it is below 0."""
+    half = math.sqrt(hx * hx + hy * hy + hz * hz)
+    if half == 0.0:
+        return 0.0
+    cosine = (hx * nx + hy * ny + hz * nz) / half
+    return cosine**exponent if cosine > 0.0 else 0.0
+
+
+@kernel
+def shade_facets(
+    view: Floats,
+    first_row: int,
+    found: Floats,
+    hits: Ints,
+    normals: Floats,
+    looks: Floats,
+    ambient: Floats,
+    places: Floats,
+    colors: Floats,
+    samples: int,
+    rgb: Floats,
+    coverage: Floats,
+) -> None:
+    """Add the light of samples whose normals are known to their pixels, without shadows.
+
+    ``found`` (rows, columns) holds the t of the first hits and ``normals`` (rows, columns, 3) the
+    unit normals; all else is as of :func:`shade`.
+    """
+    share = 1.0 / (samples * samples)
+    for i in range(found.shape[0]):
+        row = first_row + i
+        for j in range(found.shape[1]):
+            t = found[i, j]
+            if t == math.inf:
+                continue
+            dx = view[3, 0] + row * view[4, 0] + j * view[5, 0]
+            dy = view[3, 1] + row * view[4, 1] + j * view[5, 1]
+            dz = view[3, 2] + row * view[4, 2] + j * view[5, 2]
+            length = math.sqrt(dx * dx + dy * dy + dz * dz)
+            ex, ey, ez = -dx / length, -dy / length, -dz / length
+            x = view[0, 0] + row * view[1, 0] + j * view[2, 0] + t * dx
+            y = view[0, 1] + row * view[1, 1] + j * view[2, 1] + t * dy
+            z = view[0, 2] + row * view[1, 2] + j * view[2, 2] + t * dz
+            nx, ny, nz = normals[i, j, 0], normals[i, j, 1], normals[i, j, 2]
+            if nx * ex + ny * ey + nz * ez < 0.0:
+                nx, ny, nz = -nx, -ny, -nz
+            look = looks[hits[i, j, 1]]
+            r, g, b = look[3] * ambient[0], look[3] * ambient[1], look[3] * ambient[2]
+            for k in range(len(places)):
+                lx = places[k, 0] - places[k, 3] * x
+                ly = places[k, 1] - places[k, 3] * y
+                lz = places[k, 2] - places[k, 3] * z
+                far = math.sqrt(lx * lx + ly * ly + lz * lz)
+                if far == 0.0:
+                    continue
+                lx, ly, lz = lx / far, ly / far, lz / far
+                light = look[4] * max(nx * lx + ny * ly + nz * lz, 0.0)
+                light += look[5] * shine(nx, ny, nz, ex + lx, ey + ly, ez + lz, look[6])
+                r += light * colors[k, 0]
+                g += light * colors[k, 1]
+                b += light * colors[k, 2]
+            u, v = i // samples, j // samples
+            rgb[u, v, 0] += share * look[0] * r
+            rgb[u, v, 1] += share * look[1] * g
+            rgb[u, v, 2] += share * look[2] * b
+            coverage[u, v] += share
+
+
+@kernel
 def shade(
     scene: Scene,
     view: Floats,
@@ -160,12 +232,7 @@ def shade(
                     if blocked < math.inf:
                         continue
                 light = diffuse * max(cosine, 0.0)
-                hx, hy, hz = ex + lx, ey + ly, ez + lz
-                half = math.sqrt(hx * hx + hy * hy + hz * hz)
-                if half > 0.0:
-                    shine = (hx * nx + hy * ny + hz * nz) / half
-                    if shine > 0.0:
-                        light += specular * shine**exponent
+                light += specular * shine(nx, ny, nz, ex + lx, ey + ly, ez + lz, exponent)
                 r += light * colors[k, 0]
                 g += light * colors[k, 1]
                 b += light * colors[k, 2]

@@ -88,16 +88,17 @@ class Limits:
         """Refuse ground truth of too many pixels times leaves, thickness and depth of each."""
         self._check_bytes("/truth", columns * rows * leaves * MAPS_PER_LEAF * images)
 
-    def check_render(self, columns: int, rows: int, samples: int) -> None:
-        """Refuse a picture in visible light of too many pixels, or of too many rays.
+    def check_render(self, columns: int, rows: int, samples: int, images: int = 1) -> None:
+        """Refuse pictures in visible light of too many pixels, or of too many rays.
 
         ``samples`` are those along a side of a pixel.
         """
-        pixels = columns * rows
+        pixels = columns * rows * images
         if pixels > self.pixels:
-            _refuse("/camera", f"found {columns} × {rows} pixels", f"{self.pixels} at most")
+            found = f"found {_times(images)}{columns} × {rows} pixels"
+            _refuse("/camera", found, f"{self.pixels} at most")
         if pixels * samples**2 > self.exposure_rays:
-            found = f"found {columns} × {rows} pixels × {samples**2} samples"
+            found = f"found {_times(images)}{columns} × {rows} pixels × {samples**2} samples"
             _refuse("/samples_per_pixel", found, f"{self.exposure_rays} at most")
         self._check_bytes("/camera", pixels * NUMBERS_PER_COLOR)
 

@@ -272,7 +272,7 @@ def plan_of(
 def _filled(model: ModelT, **defaults: object) -> ModelT:
     """Return the model with these values where the request left them out, still marked as such."""
     said = {name: getattr(model, name) for name in model.model_fields_set}
-    content = {**model.model_dump(), **defaults, **said}
+    content = {**dict(model), **defaults, **said}
     return cast("ModelT", model.model_construct(_fields_set=model.model_fields_set, **content))
 
 

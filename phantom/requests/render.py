@@ -83,7 +83,7 @@ class RenderPlan:
 
     def fingerprint(self) -> str:
         """Return a hash of all that the result depends on, the same for equal requests."""
-        request = self.request.model_dump(mode="json", exclude={"phantom", "camera"})
+        request = self.request.model_dump(mode="json", exclude={"phantom", "camera", "stereo"})
         content = {
             "engine": version("phantom-xray"),
             "encoder": version("OpenImageIO"),
@@ -139,12 +139,27 @@ def plan_render(
         Every problem found, with the path of its field in the request.
     """
     request, phantom = read_request(RenderRequest, tree, known)
+    return plan_of_render(request, phantom, limits)
+
+
+def plan_of_render(
+    request: RenderRequest, phantom: Phantom, limits: Limits | None = None, images: int = 1
+) -> RenderPlan:
+    """Return what a request asks for, of a phantom that is ready.
+
+    Limits count so many ``images``, such as the two of a pair.
+
+    Raises
+    ------
+    InvalidInputError
+        As for :func:`plan_render`.
+    """
     asked = request.camera
     # A picture is square where only its columns are given.
     if "rows" not in asked.model_fields_set:
         asked = asked.model_copy(update={"rows": asked.columns})
     samples = request.samples_per_pixel
-    (limits or Limits()).check_render(asked.columns, asked.rows, samples)
+    (limits or Limits()).check_render(asked.columns, asked.rows, samples, images)
     camera = camera_of(phantom, asked, shown_leaves(phantom, request.hide))
     chosen = {
         **_placing(asked),

@@ -14,11 +14,12 @@ from pydantic import Field, field_validator
 
 from phantom.document import told
 from phantom.document.base import Name, refuse
-from phantom.encode import FORMATS, Layout
+from phantom.encode import FORMATS, Format, Layout
 from phantom.errors import Problem
-from phantom.imaging import StereoPair, Truth, ground_truth
+from phantom.imaging import Presentation, StereoPair, Truth, ground_truth
 from phantom.imaging.refusals import check_exposure
 from phantom.imaging.stereo import Eyes, check_eye, pair_of, placed
+from phantom.imaging.truth import Kind
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest, plan_of
 from phantom.requests.subject import read_request
@@ -76,6 +77,35 @@ class StereoPlan:
     def single(self) -> bool:
         """Whether there is one image alone."""
         return self.wish.mono == "single"
+
+    @property
+    def name(self) -> str:
+        """Of the phantom."""
+        return self.mono.phantom.document.name
+
+    @property
+    def quantity(self) -> str:
+        """What a pixel holds."""
+        return self.mono.quantity
+
+    @property
+    def presentation(self) -> Presentation:
+        """How it is shown."""
+        return self.mono.presentation
+
+    @property
+    def truth(self) -> tuple[Kind, ...]:
+        """Kinds of ground truth; none for the images alone."""
+        return self.mono.truth
+
+    @property
+    def blind(self) -> bool:
+        """Whether the files leave out what they say of themselves."""
+        return self.mono.blind
+
+    def check_format(self, format: Format) -> None:
+        """Refuse a file format that cannot hold an image, before anything is traced."""
+        self.mono.check_format(format)
 
     def fingerprint(self) -> str:
         """Return a hash of all that the result depends on, the same for equal requests."""
@@ -160,24 +190,25 @@ def plan_pair(
     for eye in (eyes.left, eyes.right):
         check_exposure(phantom, eye, mono.beam, mono.acquisition)
     presentation = mono.presentation.of_pair
-    chosen = {**mono.chosen, "scope": presentation.scope, **_words_of(wish, eyes)}
+    placing = {"dose": wish.dose, **eye_words(wish, eyes.baseline_mm, eyes.angle_deg)}
+    if wish.mono is not None:
+        placing = {"mono": wish.mono}
+    chosen = {**mono.chosen, "scope": presentation.scope, **placing}
     return StereoPlan(mono, wish, aim, eyes, chosen)
 
 
-def _words_of(wish: StereoWish, eyes: Eyes) -> dict[str, object]:
-    """Return the words of a pair as it came out; a mono arm has few."""
-    if wish.mono is not None:
-        return {"mono": wish.mono}
-    plane = wish.zero_parallax
-    screen = wish.screen
+def eye_words(
+    wish: StereoWish, baseline_mm: float | None, angle_deg: float | None
+) -> dict[str, object]:
+    """Return the words of two eyes as they came out."""
+    plane, screen = wish.zero_parallax, wish.screen
     found: dict[str, object] = {"method": wish.method}
-    if wish.method == "shift" and eyes.baseline_mm is not None:
-        found["baseline_mm"] = round(eyes.baseline_mm, 6)
-    if wish.method == "rotate" and eyes.angle_deg is not None:
-        found["stereo_angle_deg"] = round(eyes.angle_deg, 6)
+    if wish.method == "shift" and baseline_mm is not None:
+        found["baseline_mm"] = round(baseline_mm, 6)
+    if wish.method == "rotate" and angle_deg is not None:
+        found["stereo_angle_deg"] = round(angle_deg, 6)
     return {
         **found,
         "zero_parallax": plane.plane_mm if isinstance(plane, ZeroPlane) else plane,
         "screen": f"{screen.pixel_pitch_mm:g},{screen.distance_mm:g},{screen.ipd_mm:g}",
-        "dose": wish.dose,
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Final
+from typing import Any, Final, Protocol
 
 from phantom.encode import (
     FORMATS,
@@ -20,24 +20,57 @@ from phantom.encode import (
     pair_sidecar,
     truth_files,
 )
+from phantom.encode.content import COLOR
+from phantom.encode.stereo import Pair
 from phantom.errors import InvalidInputError, Problem
-from phantom.imaging import StereoPair, Truth
-from phantom.requests.stereo import StereoPlan
+from phantom.imaging import Truth
+from phantom.requests.stereo import StereoWish
 
 SIDECAR: Final = "pair.json"
 
 
-def forms_of(planned: StereoPlan) -> tuple[str, ...]:
+class PairPlan(Protocol):
+    """A pair that is planned, of radiographs or in visible light."""
+
+    @property
+    def wish(self) -> StereoWish:
+        """What is asked of the eyes."""
+
+    @property
+    def single(self) -> bool:
+        """Whether there is one image alone."""
+
+    @property
+    def quantity(self) -> str:
+        """What a pixel holds."""
+
+    @property
+    def presentation(self) -> Any:
+        """How it is shown."""
+
+    @property
+    def truth(self) -> tuple[str, ...]:
+        """Kinds of ground truth; none for the images alone."""
+
+    @property
+    def blind(self) -> bool:
+        """Whether the files leave out what they say of themselves."""
+
+    def check_format(self, format: Format) -> None:
+        """Refuse a file format that cannot hold an image."""
+
+
+def forms_of(planned: PairPlan) -> tuple[str, ...]:
     """Return the media types that one answer can have, the first where the caller does not mind.
 
     Two files come in an archive, and so does whatever has ground truth with it.
     """
     layout = planned.wish.layout
-    if planned.mono.truth or layout == "all" or (layout == "files" and not planned.single):
+    if planned.truth or layout == "all" or (layout == "files" and not planned.single):
         return (ZIP_MEDIA_TYPE,)
     json = format_named("json").media_type
     if planned.single:
-        single = [known.media_type for known in FORMATS]
+        single = [f.media_type for f in FORMATS if planned.quantity in f.quantities]
         return (*single, ZIP_MEDIA_TYPE)
     if layout is None:
         whole = [f.media_type for f in FORMATS if layouts_of(f)[0] != "files"]
@@ -45,7 +78,7 @@ def forms_of(planned: StereoPlan) -> tuple[str, ...]:
     return (*(f.media_type for f in FORMATS if layout in layouts_of(f)), json)
 
 
-def settle(planned: StereoPlan, format: Format | None) -> Layout:
+def settle(planned: PairPlan, format: Format | None) -> Layout:
     """Return the layout in a format, or in an archive (None), before anything is traced.
 
     Raises
@@ -54,7 +87,7 @@ def settle(planned: StereoPlan, format: Format | None) -> Layout:
         A layout (``/stereo/layout``), a quantity (``/quantity``) or another thing that it cannot
         hold; a format of files where there are none (``/stereo/format``).
     """
-    wish, mono = planned.wish, planned.mono
+    wish = planned.wish
     if format is not None and format.name == "json":
         return wish.layout or "files"
     possible = LAYOUTS if format is None else layouts_of(format)
@@ -66,38 +99,46 @@ def settle(planned: StereoPlan, format: Format | None) -> Layout:
         message = f"found {wish.format!r}; expected it only for files in an archive"
         raise InvalidInputError([Problem("/stereo/format", "no_effect", message)])
     for held in _formats(planned, format, layout):
-        mono.check_format(held)
+        planned.check_format(held)
     return layout
 
 
-def _formats(planned: StereoPlan, format: Format | None, layout: Layout) -> tuple[Format, ...]:
+def _formats(planned: PairPlan, format: Format | None, layout: Layout) -> tuple[Format, ...]:
     """Return the formats of the files that there will be."""
     if format is not None:
         return (format,)
     if layout == "all":
-        return (format_named("png"), format_named("exr"), format_named("dicom"))
+        kinds = tuple(format_named(name) for name in ("png", "exr", "dicom"))
+        return tuple(
+            kind for kind in kinds if planned.quantity != COLOR or COLOR in kind.quantities
+        )
     own = "exr" if layout == "two_view" else "png"
     return (format_named(planned.wish.format or own),)
 
 
-def encoded(planned: StereoPlan, pair: StereoPair, format: Format | None) -> dict[str, Encoded]:
+def encoded(planned: PairPlan, pair: Pair[Any], format: Format | None) -> dict[str, Encoded]:
     """Return the files of a pair in a format, or those of its archive (None), by name."""
-    layout, mono = settle(planned, format), planned.mono
+    layout = settle(planned, format)
     chosen = _formats(planned, format, layout)[0]
     return encode_pair(
-        pair, mono.quantity, mono.presentation, chosen, layout=layout, blind=mono.blind
+        pair,
+        planned.quantity,
+        planned.presentation,
+        chosen,
+        layout=layout,
+        blind=planned.blind,
     )
 
 
 def archived(
-    planned: StereoPlan,
-    pair: StereoPair,
+    planned: PairPlan,
+    pair: Pair[Any],
     files: Mapping[str, Encoded],
     truths: Mapping[str, Truth],
 ) -> bytes:
     """Return a ZIP of a pair's files, what a sidecar says of them, and each eye's ground truth."""
     inside: dict[str, Any] = {name: made.data for name, made in files.items()}
-    inside[SIDECAR] = pair_sidecar(pair, files, blind=planned.mono.blind)
+    inside[SIDECAR] = pair_sidecar(pair, files, blind=planned.blind)
     return archive({**inside, **truths_files(truths, files)})
 
 

@@ -50,19 +50,20 @@ WORDS: Mapping[str, tuple[str, ...]] = {
 }
 """Where each word's value stands in a request."""
 
-STEREO_WORDS: Mapping[str, tuple[str, ...]] = {
-    **WORDS,
+OF_EYES: Mapping[str, tuple[str, ...]] = {
     "method": ("stereo", "method"),
     "baseline_mm": ("stereo", "baseline_mm"),
     "stereo_angle_deg": ("stereo", "angle_deg"),
     "zero_parallax": ("stereo", "zero_parallax"),
     "screen": ("stereo", "screen"),
-    "dose": ("stereo", "dose"),
     "mono": ("stereo", "mono"),
     "layout": ("stereo", "layout"),
     "format": ("stereo", "format"),
 }
-"""The same for a pair."""
+"""What a pair of any kind is asked for with."""
+
+STEREO_WORDS: Mapping[str, tuple[str, ...]] = {**WORDS, **OF_EYES, "dose": ("stereo", "dose")}
+"""Those of a pair of radiographs."""
 
 RENDER_WORDS: Mapping[str, tuple[str, ...]] = {
     "view": ("camera", "preset"),
@@ -82,6 +83,9 @@ RENDER_WORDS: Mapping[str, tuple[str, ...]] = {
     "bits": ("tone", "bits"),
 }
 """The same for a picture in visible light."""
+
+RENDER_PAIR_WORDS: Mapping[str, tuple[str, ...]] = {**RENDER_WORDS, **OF_EYES}
+"""The same for a pair of them."""
 
 WHOLE = frozenset({"view", "acquisition", "lighting"})
 """Words that may be a JSON object, which is then the part of the request that they stand in."""

@@ -5,8 +5,17 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from typing import TYPE_CHECKING
 
 from phantom.errors import CancelledError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from phantom.compiled.layout import Scene
+
+    Floats = NDArray[np.float64]
 
 
 def default_workers() -> int:
@@ -117,4 +126,25 @@ def warm() -> None:
     lights = np.array([[0.0, 0.0, -1.0, 0.0]]), np.ones((1, 3))
     look, shown = np.full((1, 7), 0.25), np.ones(1, dtype=np.uint8)
     shaded(phantom, view, 1, 1, 1, shown, look, np.ones(3), lights, shadows=True)
+    _warm_meshes(phantom.compiled.scene, view, look, lights)
     mark_complete()
+
+
+def _warm_meshes(scene: Scene, view: Floats, look: Floats, lights: tuple[Floats, Floats]) -> None:
+    """Compile the kernels for meshes: one triangle on one pixel."""
+    import numpy as np
+
+    from phantom.kernels import phong, zbuffer
+
+    corners = np.array([[[-1.0, -1, 9], [1, -1, 9], [0, 1, 9]]])
+    whole = np.array([[0, 1, 0, 1]], dtype=np.int64)
+    heads, links, owners = (np.empty(s, dtype=np.int64) for s in ((1, 1), 4, 4))
+    lists = (heads, links, np.empty(4), owners)
+    zbuffer.crossings(corners, whole, view, 0, *lists)
+    found, hits = np.empty((1, 1)), np.zeros((1, 1, 4), dtype=np.int64)
+    triangles, normals = np.zeros((1, 1), dtype=np.int64), np.empty((1, 1, 3))
+    shown, leaf = np.ones(1, dtype=np.uint8), np.zeros(1, dtype=np.int64)
+    zbuffer.resolve(scene, shown, leaf, 1e-9, *lists, found, hits, triangles)
+    zbuffer.facets(corners, corners, view, 0, found, triangles, normals)
+    rgb, coverage = np.zeros((1, 1, 3)), np.zeros((1, 1))
+    phong.shade_facets(view, 0, found, hits, normals, look, np.ones(3), *lights, 1, rgb, coverage)

@@ -71,8 +71,8 @@ class PointLight(Model):
 Light = Annotated[DirectionalLight | PointLight, by_type("directional", "point")]
 
 HEAD_LIGHTS: Final = (
-    DirectionalLight(to_light=(-0.6, 0.75, 0.85), intensity=0.95, fixed_to="camera"),
-    DirectionalLight(to_light=(0.9, 0.0, 0.5), intensity=0.2, fixed_to="camera"),
+    DirectionalLight(to_light=(-0.6, 0.75, 0.85), intensity=1.15, fixed_to="camera"),
+    DirectionalLight(to_light=(0.9, 0.0, 0.5), intensity=0.3, fixed_to="camera"),
 )
 """A lamp over the viewer's left shoulder and a weak one from the right that opens the shadows."""
 
@@ -93,6 +93,15 @@ class Lighting(Asked):
     shadows: Annotated[
         Boolean, told("Shadows", "none", "Whether solids keep the lights from one another.")
     ] = False
+
+
+def light_arrays(lighting: Lighting, camera: Camera) -> tuple[Floats, Floats]:
+    """Return what kernels read: places (n, 4), see :func:`placed`, and colours (n, 3)."""
+    places, colors = np.zeros((len(lighting.lights), 4)), np.zeros((len(lighting.lights), 3))
+    for i, light in enumerate(lighting.lights):
+        places[i, :3], places[i, 3] = placed(light, camera)
+        colors[i] = np.array(light.color) * light.intensity
+    return places, colors
 
 
 def placed(light: DirectionalLight | PointLight, camera: Camera) -> tuple[Floats, float]:

@@ -14,7 +14,7 @@ from phantom.scene import Phantom
 from phantom.tracing.shading import shaded
 from phantom.tracing.shown import shown_leaves
 from phantom.visible.camera import Camera
-from phantom.visible.lights import Color, Lighting, placed
+from phantom.visible.lights import Color, Lighting, light_arrays
 from phantom.visible.looks import looks
 from phantom.visible.picture import Picture
 from phantom.visible.presets import CameraPreset
@@ -81,10 +81,6 @@ def render(
     camera = camera_of(phantom, camera, shown)
     lighting = lighting if lighting is not None else Lighting()
     samples = samples_per_pixel
-    places, colors = np.zeros((len(lighting.lights), 4)), np.zeros((len(lighting.lights), 3))
-    for i, light in enumerate(lighting.lights):
-        places[i, :3], places[i, 3] = placed(light, camera)
-        colors[i] = np.array(light.color) * light.intensity
     rgb, coverage = shaded(
         phantom,
         view_of(phantom, camera, samples),
@@ -94,7 +90,7 @@ def render(
         shown,
         looks(phantom),
         np.array(lighting.ambient, dtype=np.float64),
-        (places, colors),
+        light_arrays(lighting, camera),
         shadows=lighting.shadows,
         workers=workers,
         cancelled=cancelled,

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from phantom.document import Cut, Ellipsoid, Solid, SplineContour
+from phantom.document import Cut, Ellipsoid, Instance, Intersection, Solid, SplineContour
 from phantoms.chest.cage import OUTLINE, Cage
 from phantoms.chest.shapes import Row, column, fitted, rounded
 from phantoms.parts import ellipsoid
@@ -106,9 +106,14 @@ def angle_z(cage: Cage, side: str) -> float:
 
 
 def dome(cage: Cage, side: str) -> Solid:
-    """Return what lies under one half of the diaphragm: liver; stomach and spleen."""
+    """Return what lies under one half of the diaphragm: liver; stomach and spleen.
+
+    It is kept within the chest's wall, which the drawn lung fills.
+    """
     name = "liver" if side == "right" else "stomach and spleen"
-    return column(name, dome_rows(cage, side), "soft_tissue", _DOME_SHAPE)
+    whole = column(name, dome_rows(cage, side), "soft_tissue", _DOME_SHAPE)
+    room = Instance(type="instance", of=f"{side} lung", name=f"bounds of the {name}")
+    return Intersection(type="intersection", solids=(whole, room))
 
 
 def tendon(cage: Cage) -> Solid:

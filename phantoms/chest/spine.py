@@ -16,25 +16,24 @@ from phantoms.parts import ellipsoid, layered, union
 
 
 class Level(NamedTuple):
-    """A vertebra: its kind, drawn height of its middle, factor of its size and its disc below."""
+    """A vertebra: its kind, drawn height of its middle and factor of its size."""
 
     kind: str
     z: float
     size: float
-    disc_mm: float
 
 
 LEVELS: Final = {
-    "C4": Level("upper", 187.0, 0.74, 4.5), "C5": Level("upper", 171.5, 0.77, 4.5),
-    "C6": Level("upper", 156.0, 0.80, 4.5), "C7": Level("upper", 141.0, 0.83, 4.5),
-    "T1": Level("upper", 124.0, 0.90, 4.0), "T2": Level("upper", 105.5, 0.98, 3.5),
-    "T3": Level("upper", 85.5, 1.0, 3.0), "T4": Level("upper", 65.0, 1.02, 2.8),
-    "T5": Level("middle", 44.0, 0.93, 3.0), "T6": Level("middle", 22.5, 0.97, 3.4),
-    "T7": Level("middle", 0.0, 1.0, 3.8), "T8": Level("middle", -24.0, 1.05, 4.3),
-    "T9": Level("middle", -49.5, 1.10, 4.8), "T10": Level("lower", -76.5, 0.93, 5.2),
-    "T11": Level("lower", -105.0, 0.98, 5.6), "T12": Level("lower", -134.5, 1.04, 6.0),
-    "L1": Level("lower", -166.0, 1.10, 7.0), "L2": Level("lower", -198.5, 1.13, 8.0),
-    "L3": Level("lower", -233.0, 1.15, 8.0),
+    "C4": Level("upper", 187.0, 0.74), "C5": Level("upper", 171.5, 0.77),
+    "C6": Level("upper", 156.0, 0.80), "C7": Level("upper", 141.0, 0.83),
+    "T1": Level("upper", 124.0, 0.90), "T2": Level("upper", 105.5, 0.98),
+    "T3": Level("upper", 85.5, 1.0), "T4": Level("upper", 65.0, 1.02),
+    "T5": Level("middle", 44.0, 0.97), "T6": Level("middle", 22.5, 0.98),
+    "T7": Level("middle", 0.0, 1.0), "T8": Level("middle", -24.0, 1.05),
+    "T9": Level("middle", -49.5, 1.10), "T10": Level("lower", -76.5, 0.95),
+    "T11": Level("lower", -105.0, 1.0), "T12": Level("lower", -134.5, 1.04),
+    "L1": Level("lower", -166.0, 1.10), "L2": Level("lower", -198.5, 1.13),
+    "L3": Level("lower", -233.0, 1.15),
 }  # fmt: skip
 
 

@@ -114,12 +114,18 @@ def changes(cage: Cage, wanted: Sequence[Abnormality], in_lung: Callable[[], Fit
     """
     result = Changes()
     names = _names(wanted)
+    drawn_in: set[str] = {one.side for one in wanted if isinstance(one, known.Pneumothorax)}
+    if "left" in drawn_in:
+        drawn_in |= {"lingula"}
     for index, (one, name) in enumerate(zip(wanted, names, strict=True)):
         if name in names[:index]:
             message = f"found {name!r} again; expected another name"
             result.refuse(index, "name", "repeated", message)
             continue
         match one:
+            case known.Nodule() | known.Mass() if one.site.split()[0] in drawn_in:
+                message = f"found {one.site!r}, a lung drawn in by a pneumothorax; expected another"
+                result.refuse(index, "site", "does_not_fit", message)
             case known.Nodule() | known.Mass():
                 _in_lung(cage, result, index, one, name, in_lung())
             case known.Effusion():
@@ -268,7 +274,9 @@ def _effusion(cage: Cage, result: Changes, one: known.Effusion, name: str) -> No
     result.in_lungs.append(Intersection(type="intersection", solids=(fluid, bound)))
     result.materials.setdefault("fluid", ReferenceMaterial(reference="water", density_g_cm3=1.02))
     size = (float(high - low), float(back - front), one.depth_mm)
-    at = np.array([sign * 0.75 * max(abs(low), abs(high)), y, angle + 0.4 * one.depth_mm])
+    place = angle + 0.4 * one.depth_mm
+    reach = float(np.interp(place, rows[:, 0], np.abs(rows[:, 1:3]).max(axis=1)))
+    at = np.array([sign * (reach - 3.0), y, place])
     result.found(one, name, [name], at, size)
 
 

@@ -1,9 +1,9 @@
 """The lower half of the femur: shaft, condyles, trochlea and notch.
 
 One generalized cylinder is the bone: its axis comes down the shaft and curls backward under the
-joint, so that one outline with two humps draws the trochlea in front, the condyles below and their
-overhang behind. An elliptic cylinder along the roof of the notch is taken away from it. Spongiosa
-is the same a wall's thickness inside; a long ellipsoid in it is the marrow canal.
+joint, so that one outline draws the trochlea in front, the condyles below and their overhang
+behind. An ellipsoid taken from it deepens the groove in front, an elliptic cylinder makes the
+notch. Spongiosa is the same a wall's thickness inside; a long ellipsoid in it is the canal.
 
 The tables hold a man's right femur whose medial condyle touches z = 0; they are estimates between
 the published sizes that scale them.
@@ -26,10 +26,10 @@ SHAFT: Final = 26.5
 # In the frame (x, outward): behind the shaft and within the bend b = -1, in front of the shaft and
 # under the condyles b = 1. The medial condyle (x > 0) is the lower, the lateral one the broader.
 OUTLINE: Final[Outline] = (
-    (0.02, 0.75),
-    (0.25, 0.9),
-    (0.53, 1.0),
-    (0.82, 0.83),
+    (0.0, 0.86),
+    (0.27, 0.94),
+    (0.54, 1.0),
+    (0.83, 0.82),
     (0.98, 0.2),
     (0.96, -0.45),
     (0.62, -0.92),
@@ -37,9 +37,9 @@ OUTLINE: Final[Outline] = (
     (-0.62, -0.92),
     (-0.96, -0.45),
     (-0.99, 0.2),
-    (-0.87, 0.82),
-    (-0.56, 0.97),
-    (-0.23, 0.88),
+    (-0.88, 0.81),
+    (-0.57, 0.97),
+    (-0.27, 0.925),
 )
 # Shaft: z, y of the axis, half-width, depth behind and in front of the axis, the cortex as a share
 # of that at midshaft.
@@ -72,7 +72,12 @@ _BEYOND_MM: Final = 8.0
 _ROOF: Final = ((9.0, 9.0), (33.0, 39.0))
 """Two points (y, z) of the roof of the notch, from the trochlea up and back."""
 _NOTCH_DEPTH: Final = 15.0
-_NOTCH_WALL_MM: Final = 1.4
+_TAKEN_WALL_MM: Final = 1.4
+_BETWEEN: Final = ((0.0, 22.0, -1.5), (16.0, 30.0, 8.0))
+"""Center and semi-axes of what rounds the inner edges of the condyles."""
+# The groove of the trochlea: degrees round the bend, distance from its middle, and the semi-axes
+# of the ellipsoid across, outward and along.
+_GROOVE: Final = (46.0, 45.0, (17.0, 8.5, 40.0))
 _CANAL_FROM_Z: Final = 76.0
 
 
@@ -83,8 +88,8 @@ def femur(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
     cortex = swept("cortex", stations, "cortical bone", OUTLINE, cuts=cuts)
     spongiosa = swept("spongiosa", inner, "spongiosa", OUTLINE, cuts=cuts)
     return layered(
-        Difference(type="difference", solids=(cortex, _notch(sizes, 0.0))),
-        Difference(type="difference", solids=(spongiosa, _notch(sizes, _NOTCH_WALL_MM))),
+        Difference(type="difference", solids=(cortex, *_taken(sizes, 0.0))),
+        Difference(type="difference", solids=(spongiosa, *_taken(sizes, _TAKEN_WALL_MM))),
         *_canal(sizes, cuts),
     )
 
@@ -100,16 +105,16 @@ def lean_x(sizes: Sizes, z: float) -> float:
     return -math.tan(math.radians(sizes.valgus_deg)) * max(0.0, z - from_z)
 
 
-def condyle_stations(sizes: Sizes, more_mm: float = 0.0) -> list[Station]:
-    """Return the sections round the bend, ``more_mm`` thicker than the bone."""
+def _condyle_stations(sizes: Sizes) -> list[Station]:
+    """Return the sections round the bend."""
     across, along = scales(sizes)
     radius = BEND_RADIUS * along
     stations = []
     for angle_deg, half, inner, outer, _ in _CONDYLES:
         cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
         at = (0.0, BEND_YZ[0] * along - radius * cos, BEND_YZ[1] * along - radius * sin)
-        reach = (inner * along - radius, outer * along - radius + more_mm)
-        stations.append(Station(at, (-half * across - more_mm, half * across + more_mm), reach))
+        reach = (inner * along - radius, outer * along - radius)
+        stations.append(Station(at, (-half * across, half * across), reach))
     return stations
 
 
@@ -139,6 +144,8 @@ def stations_of(sizes: Sizes) -> tuple[list[Station], list[float]]:
     """Return the femur's sections from the shaft's top round to the back, and the wall at each."""
     top = sizes.limb + _BEYOND_MM
     zs = [row[0] for row in shaft_rows(sizes) if row[0] < top - 20.0]
+    if top - zs[-1] > 40.0:
+        zs.append((top + zs[-1]) / 2.0)
     stations, walls = [], []
     for z, y, half, back, front, wall in shaft_rows(sizes, [top, *reversed(zs)]):
         # The axis stays upright, and b is -y there; the section leans.
@@ -146,7 +153,7 @@ def stations_of(sizes: Sizes) -> tuple[list[Station], list[float]]:
         reach = (lean - half, lean + half)
         stations.append(Station((0.0, 0.0, z), reach, (-back - y, front - y)))
         walls.append(wall)
-    return stations + condyle_stations(sizes), walls + [row[4] for row in _CONDYLES]
+    return stations + _condyle_stations(sizes), walls + [row[4] for row in _CONDYLES]
 
 
 def _canal(sizes: Sizes, cuts: Sequence[Cut]) -> list[Solid]:
@@ -177,6 +184,31 @@ def tilted_ellipsoid(
     rotate = Rotation(axis=(0.0, 1.0, 0.0), angle_deg=tilt_deg, about=center)
     kept = upright.model_copy(update={"cuts": turned})
     return [Transformed(type="transformed", solid=kept, rotate=rotate)] if is_left(kept) else []
+
+
+def _taken(sizes: Sizes, wall_mm: float) -> list[Solid]:
+    """Return what is taken away of the condyles, or of what is a wall's thickness inside."""
+    across, along = scales(sizes)
+    (x, y, z), (a, b, c) = _BETWEEN
+    between = ellipsoid(
+        "between the condyles" if wall_mm == 0.0 else "wall between the condyles",
+        (x, y * along, z * along),
+        (a * across + wall_mm, b * along + wall_mm, c * along + wall_mm),
+    )
+    return [_notch(sizes, wall_mm), _groove(sizes, wall_mm), between]
+
+
+def _groove(sizes: Sizes, wall_mm: float) -> Solid:
+    """Return the ellipsoid that makes the groove of the trochlea."""
+    across, along = scales(sizes)
+    angle_deg, distance, (a, b, c) = _GROOVE
+    cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
+    y, z = BEND_YZ[0] - distance * cos, BEND_YZ[1] - distance * sin
+    center = (0.0, y * along, z * along)
+    axes = (a * across + wall_mm, b * along + wall_mm, c * along + wall_mm)
+    upright = ellipsoid("groove" if wall_mm == 0.0 else "groove wall", center, axes)
+    turned = Rotation(axis=(1.0, 0.0, 0.0), angle_deg=angle_deg, about=center)
+    return Transformed(type="transformed", solid=upright, rotate=turned)
 
 
 def _notch(sizes: Sizes, wall_mm: float) -> Cylinder:

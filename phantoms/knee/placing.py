@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from phantom.document import Point
@@ -10,10 +9,10 @@ from phantoms.knee import femur
 from phantoms.knee.sizes import Sizes
 from phantoms.parts import chord_lengths
 
-_GROOVE = 0.75
-"""Of the femur's outline, where the patella's ridge runs."""
-_PATELLA_Z = 34.0
-_PATELLA_GAP = 0.8
+_FRONT = 0.88
+"""Of the femur's outline, what is in front of the shaft, where the patella's ridge begins."""
+_PATELLA_Z = 32.0
+_PATELLA_GAP = 0.6
 """Distance of patella and femur over the joint space (an estimate)."""
 
 
@@ -36,8 +35,8 @@ def placed(sizes: Sizes) -> Placed:
     lowest = _lowest(sizes)
     _, along = femur.scales(sizes)
     at_z = _PATELLA_Z * along
-    groove_y = _groove_y(sizes, at_z)
-    ridge = (-0.035 * sizes.patella_width, groove_y - _PATELLA_GAP * sizes.joint_space, at_z + half)
+    front_y = _front_y(sizes, at_z)
+    ridge = (-0.035 * sizes.patella_width, front_y - _PATELLA_GAP * sizes.joint_space, at_z + half)
     return Placed(half, lowest - half, ridge)
 
 
@@ -51,9 +50,9 @@ def _lowest(sizes: Sizes) -> float:
     return min(z + slope * (y - cut.point[1]) for y, z in points)
 
 
-def _groove_y(sizes: Sizes, z: float) -> float:
-    """Return y of the bottom of the groove at a height."""
-    points = _profile(sizes, _GROOVE)
+def _front_y(sizes: Sizes, z: float) -> float:
+    """Return y of the trochlea's front at a height."""
+    points = _profile(sizes, _FRONT)
     return min(((abs(at - z), y) for y, at in points if y < 0.0))[1]
 
 
@@ -78,10 +77,3 @@ def _profile(sizes: Sizes, share: float) -> list[tuple[float, float]]:
     y = axis(u)[:, 1] + reach * first[:, 2] / length
     z = axis(u)[:, 2] - reach * first[:, 1] / length
     return list(zip(y.tolist(), z.tolist(), strict=True))
-
-
-def turned(point: Point, about: Point, angle_deg: float) -> Point:
-    """Return a point turned about the y axis through another."""
-    x, z = point[0] - about[0], point[2] - about[2]
-    cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
-    return (about[0] + cos * x + sin * z, point[1], about[2] - sin * x + cos * z)

@@ -26,7 +26,7 @@ SHAFT: Final = 24.0
 FIBULA_SHAFT: Final = 13.0
 NOTCH: Final = 22.0
 
-# In the frame (x, -y): see tibia_stations.
+# In the frame (x, y): the crest in front at -1, a hollow behind, the medial side (x > 0) fuller.
 OUTLINE: Final[Outline] = (
     (0.02, -1.0),
     (0.5, -0.78),
@@ -70,9 +70,10 @@ _SPINES: Final = (
 
 # z under the plateau, x and y of the axis, its radius across and from front to back.
 _FIBULA_HEAD: Final = (
-    (-13.0, -38.6, 36.4, 4.6, 4.8),
-    (-16.5, -38.4, 35.8, 7.8, 8.0),
-    (-24.0, -37.9, 34.8, 9.8, 10.0),
+    (-12.2, -38.7, 36.6, 2.4, 2.5),
+    (-14.0, -38.6, 36.3, 5.6, 5.8),
+    (-17.6, -38.4, 35.8, 8.3, 8.5),
+    (-25.0, -37.9, 34.8, 9.8, 10.0),
     (-36.0, -36.8, 33.2, 8.4, 8.7),
     (-52.0, -35.2, 31.2, 5.9, 6.3),
 )
@@ -83,6 +84,8 @@ _FIBULA_SHAFT: Final = (
 )
 _FIBULA_INSIDE: Final = ((-37.8, 34.6, -25.0), (8.6, 8.8, 11.0))
 """Center and semi-axes of the spongiosa of the head."""
+_FIBULA_NECK: Final = ((-35.3, 31.4, -51.0), (4.2, 4.6, 26.0))
+"""Center and semi-axes of the marrow of the neck."""
 _FIBULA_CANAL_FROM_Z: Final = -38.0
 
 
@@ -119,7 +122,7 @@ def tibia(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
 
 
 def tibia_stations(sizes: Sizes) -> tuple[list[Station], list[float]]:
-    """Return the tibia's sections from over the plateau down, and the wall at each."""
+    """Return the tibia's sections from below to over the plateau, and the wall at each."""
     import numpy as np
 
     across, along = scales(sizes)
@@ -141,9 +144,8 @@ def tibia_stations(sizes: Sizes) -> tuple[list[Station], list[float]]:
     stations = [
         Station((0.0, y, row[0]), (row[1], row[2]), (row[3] - y, row[4] - y)) for row in rows
     ]
-    # The axis comes down, so that b = t x n is -y.
-    turned = [Station(s.at, s.x, (-s.b[1], -s.b[0])) for s in stations]
-    return turned, [row[5] for row in rows]
+    # From below, so that b = t x n is +y.
+    return stations[::-1], [row[5] for row in rows][::-1]
 
 
 def _canal(sizes: Sizes) -> Ellipsoid:
@@ -197,7 +199,12 @@ def _in_fibula(sizes: Sizes, cuts: Sequence[Cut]) -> list[Solid]:
     radius = sizes.fibula_shaft / 2.0 - sizes.fibula_cortex
     middle = (low_x, (low_y + 0.25 * (high_y - low_y)), low_z)
     canal = tilted_ellipsoid("marrow", middle, (radius, radius, end - low_z), tilt, cuts)
-    return [*_left(head, cuts), *canal]
+    x, y, z = _FIBULA_NECK[0]
+    a, b, c = _FIBULA_NECK[1]
+    center = (x * across, y * along, z * along)
+    axes = (a * along, b * along, c * along)
+    neck = tilted_ellipsoid("marrow of the neck", center, axes, tilt, cuts)
+    return [*_left(head, cuts), *neck, *canal]
 
 
 def _left(solid: Ellipsoid, cuts: Sequence[Cut]) -> list[Ellipsoid]:

@@ -43,7 +43,7 @@ class FillingDefect(Abnormality):
     type: Literal["filling_defect"] = "filling_defect"
     at: _At = 0.5
     curvature: _Curvature = "greater"
-    diameter_mm: Annotated[Number, told("Diameter", "mm", "Of the polyp.", ge=4.0, le=50.0)] = 18.0
+    diameter_mm: Annotated[Number, told("Diameter", "mm", "Of the polyp.", ge=4.0, le=50.0)] = 24.0
 
 
 class UlcerNiche(Abnormality):

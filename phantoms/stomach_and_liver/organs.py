@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.document import Cut, Point, Solid
-from phantoms.parts import Outline, Station, layered, swept, within
+from phantoms.parts import Outline, Station, layered, round_station, swept, within
 
 FloatArray = NDArray[np.float64]
 
@@ -38,37 +38,42 @@ _STOMACH: Final = (
     ((14.0, -32.5, -31.0), 26.0, 13.5, 31.5),
     ((-4.0, -31.0, -24.5), 23.0, 13.0, 27.0),
     ((-17.5, -27.0, -9.5), 18.5, 12.0, 19.5),
-    ((-25.0, -22.5, 7.0), 16.5, 13.5, 16.5),
-    ((-30.0, -18.5, 21.0), 13.0, 12.0, 12.5),
-    ((-33.0, -15.5, 30.5), 8.0, 7.5, 7.5),
-    ((-35.0, -13.5, 37.0), 4.8, 4.8, 4.8),
+    ((-25.5, -22.5, 3.5), 16.5, 13.5, 16.5),
+    ((-31.0, -18.5, 14.5), 13.0, 12.0, 12.5),
+    ((-34.5, -15.5, 22.0), 8.0, 7.5, 7.5),
+    ((-37.0, -13.5, 27.5), 4.8, 4.8, 4.8),
 )
 _ANTRUM: Final = 11
 """Station at which the antrum begins."""
+_BEND_SHARE: Final = 0.82
+"""How near to the centre of its bend the wall may come."""
+_BEND: Final = 8
+"""Station at which the bend begins."""
 _WIDEST_MM: Final = 88.0
 _BULB: Final = (
     ((0.0, 0.0, 0.0), 3.0),
-    ((-0.6, 0.4, 2.6), 5.0),
-    ((-2.4, 1.6, 7.0), 12.0),
-    ((-5.0, 3.4, 13.0), 14.0),
-    ((-8.4, 6.0, 19.5), 12.0),
-    ((-12.0, 9.4, 25.0), 8.5),
-    ((-15.0, 12.0, 28.0), 4.0),
+    ((-0.9, 0.5, 1.8), 4.5),
+    ((-2.4, 1.6, 4.4), 10.0),
+    ((-5.0, 4.2, 8.6), 11.5),
+    ((-8.0, 7.6, 12.6), 9.6),
+    ((-11.0, 11.2, 15.8), 6.8),
+    ((-13.2, 14.0, 17.6), 3.2),
 )
 # x from right to left, then z of the lower and upper face, y of the front and of the back.
 _LIVER: Final = (
     (-122.0, 52.0, 72.0, -8.0, 12.0),
-    (-119.0, 32.0, 92.0, -32.0, 36.0),
-    (-112.0, 12.0, 116.0, -52.0, 56.0),
-    (-99.0, -4.0, 140.0, -67.0, 68.0),
-    (-80.0, -3.0, 154.0, -77.0, 72.0),
-    (-58.0, 14.0, 156.0, -82.0, 66.0),
-    (-36.0, 38.0, 150.0, -84.0, 44.0),
-    (-14.0, 58.0, 142.0, -84.0, 8.0),
-    (6.0, 70.0, 134.0, -83.0, -24.0),
-    (24.0, 80.0, 126.0, -81.0, -40.0),
-    (40.0, 90.0, 118.0, -78.0, -50.0),
-    (48.0, 98.0, 110.0, -73.0, -58.0),
+    (-119.0, 32.0, 92.0, -32.0, 34.0),
+    (-112.0, 12.0, 116.0, -52.0, 50.0),
+    (-99.0, -4.0, 140.0, -67.0, 62.0),
+    (-82.0, 2.0, 154.0, -77.0, 68.0),
+    (-66.0, 30.0, 157.0, -81.0, 66.0),
+    (-51.0, 57.0, 155.0, -83.0, 58.0),
+    (-35.0, 67.0, 150.0, -84.0, 42.0),
+    (-14.0, 73.0, 142.0, -84.0, 8.0),
+    (6.0, 80.0, 134.0, -83.0, -24.0),
+    (24.0, 86.0, 126.0, -81.0, -40.0),
+    (40.0, 93.0, 118.0, -78.0, -50.0),
+    (48.0, 99.0, 111.0, -73.0, -58.0),
 )
 _SQUARE: Final = 0.82
 _LIVER_OUTLINE: Final[Outline] = tuple(
@@ -78,8 +83,8 @@ _LIVER_OUTLINE: Final[Outline] = tuple(
     )
     for angle in (math.pi * (index + 0.5) / 8 for index in range(16))
 )
-_LIVER_ANCHOR: Final = (-80.0, 0.0, 154.0)
-"""The top of the liver: it grows and shrinks about this place, under the diaphragm."""
+_LIVER_ANCHOR: Final = (-45.0, 0.0, 54.0)
+"""Where the stomach ends under the liver, which grows and shrinks about this place."""
 
 
 class Stomach:
@@ -92,24 +97,42 @@ class Stomach:
         grown = axis_mm / _length(points)
         top = scale * points[0]
         girth = lumen_mm / _WIDEST_MM
-        self.lumen = [
-            Station(
-                _point(top + grown * (np.array(at) - points[0])),
-                (-girth * deep, girth * deep),
-                (-girth * lesser, girth * greater),
-            )
-            for at, deep, lesser, greater in _STOMACH
-        ]
+        # A wide stomach keeps clear of the spine.
+        spare = 44.0 * max(girth - scale, 0.0)
+        top = top + np.array([spare, -0.6 * spare, 0.0])
         body = BODY_WALL * wall_mm
         self.walls = [
             body + (wall_mm - body) * min(max((index - _ANTRUM + 3) / 4, 0.0), 1.0)
             for index in range(len(_STOMACH))
         ]
-        placed = np.array([station.at for station in self.lumen])
+        placed = top + grown * (points - points[0])
         along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(placed, axis=0), axis=1))])
         self._axis = CubicSpline(along / along[-1], placed)
+        # On the inner side of the bend there is only so much room.
+        room = np.full(len(points), np.inf)
+        room[_BEND:] = (_BEND_SHARE * self._bend_mm(along / along[-1]) - np.array(self.walls))[
+            _BEND:
+        ]
+        self.lumen = [
+            Station(
+                _point(at),
+                (-girth * deep, girth * deep),
+                (-max(min(girth * lesser, least), 4.0), girth * greater),
+            )
+            for at, least, (_, deep, lesser, greater) in zip(placed, room, _STOMACH, strict=True)
+        ]
         reaches = np.array([(s.x[1], -s.b[0], s.b[1]) for s in self.lumen])
         self._reach = CubicSpline(along / along[-1], reaches)
+
+    def _bend_mm(self, shares: FloatArray) -> FloatArray:
+        """Return the least radius of the axis' bend about each place."""
+        dense = np.linspace(0.0, 1.0, 400)
+        first, second = self._axis(dense, 1), self._axis(dense, 2)
+        speed = np.linalg.norm(first, axis=1)
+        turn = np.linalg.norm(np.cross(first, second), axis=1) / speed**3
+        near = np.abs(shares[:, None] - dense[None, :]) < 0.05
+        least: FloatArray = 1.0 / np.where(near, turn[None, :], 0.0).max(axis=1)
+        return least
 
     @property
     def outer(self) -> list[Station]:
@@ -128,6 +151,17 @@ class Stomach:
                 )
             )
         return rows
+
+    @property
+    def reaches(self) -> list[tuple[float, float]]:
+        """Places (x, y) that the wall reaches at the back, and between back and side."""
+        made = []
+        for row in self.outer:
+            x, y, _ = row.at
+            made.append((x, y + row.x[1]))
+            made.append((x + 0.75 * row.b[1], y + 0.75 * row.x[1]))
+            made.append((x + row.b[1], y))
+        return made
 
     @property
     def heights_mm(self) -> tuple[float, float]:
@@ -175,11 +209,11 @@ class Stomach:
             solids.append(swept("barium", self.lumen, BARIUM, up=up, cuts=(cut,)))
         return solids
 
-    def bulb(self, wall_mm: float) -> Solid:
+    def bulb(self, scale: float, wall_mm: float) -> Solid:
         """Return the duodenal bulb beyond the pylorus, full of barium."""
         end = np.array(self.lumen[-1].at)
         rows = [
-            Station(_point(end + np.array(at)), (-half, half), (-half, half)) for at, half in _BULB
+            round_station(_point(end + scale * np.array(at)), scale * half) for at, half in _BULB
         ]
         wall = 0.5 * wall_mm
         outer = [
@@ -200,7 +234,7 @@ def liver(scale: float, volume_cm3: float) -> tuple[Solid, list[Station]]:
 
 
 def _liver_rows(scale: float, grown: float) -> list[Station]:
-    """Return the sections of the liver, grown about its top."""
+    """Return the sections of the liver, grown about its place over the pylorus."""
     anchor = np.array(_LIVER_ANCHOR)
     middle_y, middle_z = -10.0, 100.0
     rows = []
@@ -212,6 +246,11 @@ def _liver_rows(scale: float, grown: float) -> list[Station]:
             Station(_point(at), up, (grown * (middle_y - back), grown * (middle_y - front)))
         )
     return rows
+
+
+def reaches(rows: Sequence[Station]) -> list[tuple[float, float]]:
+    """Return places (x, y) that the liver reaches at its front and at its back."""
+    return [(row.at[0], row.at[1] - b) for row in rows for b in row.b]
 
 
 def _volume_cm3(rows: Sequence[Station]) -> float:

@@ -43,8 +43,15 @@ class Parameters(PersonParameters):
         ),
     ] = None
     stomach_lumen_mm: Annotated[
-        Number, told("Lumen", "mm", "The widest place's diameter.", ge=60.0, le=105.0)
-    ] = 88.0
+        Number | None,
+        told(
+            "Lumen",
+            "mm",
+            "The widest place's diameter, at most 0.4 of the axis; null by stature.",
+            ge=60.0,
+            le=105.0,
+        ),
+    ] = None
     stomach_wall_mm: Annotated[
         Number,
         told("Wall", "mm", "Of the antrum; the body's is two fifths of it.", ge=2.5, le=8.0),
@@ -62,10 +69,10 @@ class Parameters(PersonParameters):
     barium_g_ml: Annotated[
         Number,
         told("Barium", "g/mL", "Barium sulphate in the suspension.", ge=0.05, le=2.0),
-    ] = 0.3
+    ] = 0.12
     coating_mm: Annotated[
         Number, told("Coating", "mm", "Barium on the wall above the level.", ge=0.05, le=1.0)
-    ] = 0.25
+    ] = 0.4
     fat_mm: Annotated[
         Number | None,
         told("Fat", "mm", "Under the skin; null for the body mass index.", ge=2.0, le=90.0),
@@ -121,7 +128,7 @@ def _of(person: Person, drawn: list[float]) -> dict[str, float]:
     made = {
         "liver_volume_cm3": liver_volume_cm3(person) * math.exp(_LIVER_SPREAD * 0.8 * liver),
         "stomach_axis_mm": 275.0 * person.height_cm / 168.5 * (1 + 0.05 * axis),
-        "stomach_lumen_mm": 88.0 + 5.0 * lumen,
+        "stomach_lumen_mm": 88.0 * person.height_cm / 168.5 * (1 + 0.05 * lumen),
         "stomach_wall_mm": 5.1 + 0.8 * wall,
         "fat_mm": fat_mm(person, 15.0, 20.0, per_bmi=0.07, scatter=fat),
     }

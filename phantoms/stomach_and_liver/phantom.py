@@ -7,11 +7,12 @@ from typing import Final
 
 from phantom.document import Anatomy, CompositionMaterial, Document, ReferenceMaterial
 from phantom.document.substances import Material
+from phantom.errors import InvalidInputError, Problem
 from phantom.library import Abnormality, Entry, Technique
 from phantoms.parts import layered, named, union
 from phantoms.people import cortical_density_g_cm3, muscle_scale, spongiosa_density_g_cm3
 from phantoms.stomach_and_liver.abnormalities import ABNORMALITIES, Surroundings, add
-from phantoms.stomach_and_liver.organs import AIR, BARIUM, LIVER, WALL, Stomach, liver
+from phantoms.stomach_and_liver.organs import AIR, BARIUM, LIVER, WALL, Stomach, liver, reaches
 from phantoms.stomach_and_liver.parameters import Parameters, of_person
 from phantoms.stomach_and_liver.spine import CORTEX, SPONGIOSA, psoas, ribs, spine
 from phantoms.stomach_and_liver.trunk import (
@@ -43,6 +44,7 @@ _SUMMARY: Final = (
     " bases, in muscle, fat and skin."
 )
 _BARIUM_SULPHATE_G_CM3: Final = 4.5
+_MOST_LUMEN: Final = 0.4
 
 
 def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> Document:
@@ -57,24 +59,30 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
     person = chosen.person
     scale = person.height_cm / 168.5
     organ, sections = liver(scale, chosen.value("liver_volume_cm3"))
-    trunk = trunk_of(person, scale, chosen.value("fat_mm"), -sections[0].at[0])
-    stomach = Stomach(
+    axis, lumen = chosen.value("stomach_axis_mm"), chosen.value("stomach_lumen_mm")
+    if lumen > _MOST_LUMEN * axis:
+        message = f"found {lumen:g} mm; expected at most {_MOST_LUMEN * axis:.4g}, for the axis"
+        raise InvalidInputError([Problem("/parameters/stomach_lumen_mm", "out_of_range", message)])
+    stomach = Stomach(scale, axis, lumen, chosen.stomach_wall_mm)
+    highest = max(row.at[2] + row.x[1] for row in sections)
+    trunk = trunk_of(
+        person,
         scale,
-        chosen.value("stomach_axis_mm"),
-        chosen.stomach_lumen_mm,
-        chosen.stomach_wall_mm,
+        chosen.value("fat_mm"),
+        reached=[*stomach.reaches, *reaches(sections)],
+        highest_mm=highest,
     )
     low, high = stomach.heights_mm
     level = low + chosen.filling * (high - low)
     wrong, findings = add(stomach, level, abnormalities, Surroundings(trunk, sections, scale))
     solid = layered(
         envelope(trunk),
-        *lungs(trunk, scale),
+        *lungs(trunk, scale, highest),
         union(*psoas(scale, muscle_scale(person), trunk)),
         organ,
         union(*spine(scale), *(ribs(scale, trunk) if chosen.ribs else [])),
         named("stomach", layered(*stomach.solids(level, chosen.coating_mm))),
-        named("duodenum", stomach.bulb(chosen.stomach_wall_mm)),
+        named("duodenum", stomach.bulb(scale, chosen.stomach_wall_mm)),
         *wrong,
     )
     return Document(
@@ -141,8 +149,8 @@ entry = Entry(
     summary=_SUMMARY,
     parameters=Parameters,
     build=build,
-    views=("ap", "rao"),
-    technique=Technique(kvp=78.0, source_detector_mm=1150.0, window=(4.9, 4.4), air_kerma_ugy=2.5),
+    views=("ap",),
+    technique=Technique(kvp=78.0, source_detector_mm=1150.0, window=(5.0, 5.2), air_kerma_ugy=2.5),
     abnormalities=ABNORMALITIES,
     of_person=of_person,
 )

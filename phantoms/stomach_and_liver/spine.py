@@ -47,7 +47,7 @@ VERTEBRAE: Final[dict[str, Vertebra]] = {
     "L2": Vertebra(31.0, 36.0, 44.0, 33.0, 27.0, (8.5, 14.5), 13.0, 40.0),
     "L3": Vertebra(29.0, -1.0, 45.5, 34.0, 27.5, (10.0, 14.0), 14.0, 45.0),
     "L4": Vertebra(31.0, -38.5, 47.5, 35.0, 27.5, (12.0, 14.0), 15.5, 42.0),
-    "L5": Vertebra(37.0, -76.0, 50.0, 35.2, 28.5, (15.8, 12.8), 18.0, 42.0),
+    "L5": Vertebra(37.0, -76.5, 50.0, 35.2, 29.6, (15.8, 12.8), 18.0, 42.0),
 }
 # A body's outline in the frame (x, back): hollow behind.
 _BODY: Final = (
@@ -180,6 +180,8 @@ def ribs(scale: float, trunk: Trunk) -> list[Solid]:
                 z = scale * (start_z - fall * math.sin(math.pi / 2 * share) ** 1.3)
                 size = 0.55 if index in (0, _RIB_SECTIONS) else 1.0 - 0.12 * share
                 rows.append(round_station((x, y, z), 5.9 * scale * size, 3.5 * scale * size))
+            # The end planes slope; what lies far above them is left out.
+            rows = [row for row in rows if row.at[2] < trunk.top + 30.0]
             inner = within(rows, 1.0 * scale, least_mm=0.4)
             up = (0.0, 0.0, 1.0)
             shell = swept("cortex", rows, CORTEX, up=up, cuts=trunk.ends[:1])

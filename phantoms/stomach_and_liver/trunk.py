@@ -6,6 +6,8 @@ index.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 from phantom.document import Cut, Ellipsoid, GeneralizedCylinder, Point, Solid
@@ -19,8 +21,10 @@ SKIN_MM: Final = 2.0
 _TOP_MM, _BOTTOM_MM = 174.0, -100.0
 MIDDLE_MM: Final = 37.0
 """Height of the middle of what is seen."""
+_ROOM: Final = 0.95
+"""How near to the cavity's wall organs may come."""
 _FOCUS_MM: Final = 1000.0
-_BEYOND_MM: Final = 40.0
+_BEYOND_MM: Final = 30.0
 """How far the parts reach beyond the ends before they are cut."""
 _OUTLINE: Final[Outline] = (
     (0.0, -1.0), (0.42, -0.94), (0.76, -0.72), (0.96, -0.34), (1.0, 0.08), (0.92, 0.5),
@@ -62,14 +66,29 @@ class Trunk(NamedTuple):
         )
 
 
-def trunk_of(person: Person, scale: float, fat_mm: float, reach_mm: float) -> Trunk:
-    """Return the trunk of a person; ``reach_mm`` is how far the liver reaches aside."""
+def trunk_of(
+    person: Person,
+    scale: float,
+    fat_mm: float,
+    *,
+    reached: Sequence[tuple[float, float]],
+    highest_mm: float,
+) -> Trunk:
+    """Return the trunk of a person, about organs that reach these places (x, y) and that height."""
     broad = (body_surface_m2(person) / 1.9) ** 0.5
-    half_width = max(133.0 * broad, reach_mm + 6.0)
-    half_depth = 96.0 * broad * (1.0 + 0.010 * min(max(person.bmi - 25.0, -6.0), 25.0))
-    muscle = 13.0 * muscle_scale(person)
-    focus = (0.0, -_FOCUS_MM, scale * MIDDLE_MM)
-    return Trunk(half_width, half_depth, muscle, fat_mm, scale * _BOTTOM_MM, scale * _TOP_MM, focus)
+    width = 133.0 * broad
+    depth = 96.0 * broad * (1.0 + 0.010 * min(max(person.bmi - 25.0, -6.0), 25.0))
+    tight = max(math.hypot(x / width, y / depth) for x, y in reached) / _ROOM
+    room = max(tight, 1.0)
+    return Trunk(
+        half_width=room * width,
+        half_depth=room * depth,
+        muscle=13.0 * muscle_scale(person),
+        fat=fat_mm,
+        bottom=scale * _BOTTOM_MM,
+        top=max(scale * _TOP_MM, highest_mm + 8.0),
+        focus=(0.0, -_FOCUS_MM, scale * MIDDLE_MM),
+    )
 
 
 def envelope(trunk: Trunk) -> Solid:
@@ -84,7 +103,7 @@ def envelope(trunk: Trunk) -> Solid:
     return layered(*(_shell(name, name, trunk, beyond) for name, beyond in layers))
 
 
-def lungs(trunk: Trunk, scale: float) -> list[Solid]:
+def lungs(trunk: Trunk, scale: float, highest_mm: float) -> list[Solid]:
     """Return the lung bases, and the abdomen's domes that replace them again."""
     cut = Cut(point=(0.0, 0.0, scale * 90.0), normal=(0.0, 0.0, -1.0))
     bases = _shell("lung bases", LUNG, trunk, -4.0, (cut,))
@@ -93,7 +112,7 @@ def lungs(trunk: Trunk, scale: float) -> list[Solid]:
         _ellipsoid(
             "right dome",
             (-0.5 * width, 0.0, scale * 40.0),
-            (0.56 * width, 1.12 * depth, scale * 124.0),
+            (0.56 * width, 1.12 * depth, highest_mm + 6.0 - scale * 40.0),
             VISCERA,
             trunk.ends,
         ),
@@ -106,8 +125,8 @@ def lungs(trunk: Trunk, scale: float) -> list[Solid]:
         ),
         _ellipsoid(
             "middle",
-            (0.0, 0.0, scale * 120.0),
-            (0.3 * width, 0.9 * depth, scale * 90.0),
+            (0.0, 0.0, trunk.top - 55.0),
+            (0.3 * width, 0.9 * depth, 80.0),
             VISCERA,
             trunk.ends,
         ),

@@ -12,6 +12,14 @@ from api.app import create_app
 from api.settings import Settings
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _jobs_apart(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """No test meets the jobs of the person who runs it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
+        yield
+
+
 @pytest.fixture(scope="session")
 def client() -> Iterator[TestClient]:
     """The service with its default settings; a fault of ours is an answer, as for a real client."""

@@ -8,6 +8,7 @@ import pytest
 
 CALLS = (
     "/v1/radiographs",
+    "/v1/renders",
     "/v1/path-lengths",
     "/v1/documents/validate",
     "/v1/phantoms/sphere/document",

@@ -40,6 +40,42 @@ SOUND: list[dict[str, Any]] = [
         "detector": {"columns": 8},
     },
 ]
+SEEN: list[dict[str, Any]] = [
+    {
+        "phantom": SOUND[0]["phantom"],
+        "camera": {
+            "eye": [0, -90, 5],
+            "target": [0, 0, 0],
+            "up": [0, 0, 1],
+            "columns": 8,
+            "rows": 9,
+        },
+        "hide": [],
+        "lighting": {
+            "ambient": [1, 1, 1],
+            "lights": [
+                {"type": "directional", "to_light": [1, 2, 3], "intensity": 2},
+                {"type": "point", "position": [9, 9, 9], "color": [1, 0, 0], "fixed_to": "camera"},
+            ],
+            "shadows": True,
+        },
+        "background": [0, 0.5, 1],
+        "samples_per_pixel": 2,
+        "tone": {"mode": "stretch", "bits": 16},
+    },
+    {
+        "phantom": SOUND[1]["phantom"],
+        "camera": {
+            "azimuth_deg": 20,
+            "elevation_deg": 80,
+            "parallel": True,
+            "zoom": 2,
+            "columns": 8,
+        },
+    },
+    {"phantom": SOUND[1]["phantom"], "hide": ["a"], "camera": {"preset": "top", "columns": 8}},
+]
+CALLS = {"/v1/radiographs": SOUND, "/v1/renders": SEEN}
 ODD: list[Any] = [
     float("nan"), float("inf"), -1, 0, 1e-9, 1e18, 1e300, 10**400, "", "x", "\ud800",
     None, True, [], {}, [1, 2], [1, 2, 3], {"a": 1},
@@ -53,8 +89,8 @@ def places(tree: Any, place: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
         yield from places(tree[key], (*place, key))
 
 
-def broken(random: random.Random) -> dict[str, Any]:
-    tree = copy.deepcopy(random.choice(SOUND))
+def broken(sound: list[dict[str, Any]], random: random.Random) -> dict[str, Any]:
+    tree = copy.deepcopy(random.choice(sound))
     for _ in range(random.choice([1, 1, 2, 3])):
         *parents, key = random.choice(list(places(tree)) or [("x",)])
         node = tree
@@ -67,14 +103,13 @@ def broken(random: random.Random) -> dict[str, Any]:
     return tree
 
 
+@pytest.mark.parametrize("address", CALLS)
 @pytest.mark.parametrize("seed", range(4))
-def test_a_broken_request_is_answered_or_refused(service, seed):
+def test_a_broken_request_is_answered_or_refused(service, seed, address):
     client, rng = service(max_pixels=4096), random.Random(seed)
     for _ in range(100):
-        body = json.dumps(broken(rng))
-        response = client.post(
-            "/v1/radiographs", content=body, headers={"Content-Type": "application/json"}
-        )
+        body = json.dumps(broken(CALLS[address], rng))
+        response = client.post(address, content=body, headers={"Content-Type": "application/json"})
         assert response.status_code in (200, 422), body
         if response.status_code == 422:
             assert response.json()["problems"], body

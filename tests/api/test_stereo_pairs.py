@@ -154,5 +154,37 @@ def test_two_images_count_twice(service) -> None:
 def test_the_description_has_the_call(client) -> None:
     told = client.get("/openapi.json").json()
     content = told["paths"][URL]["post"]["requestBody"]["content"]["application/json"]
-    assert content["schema"]["$ref"].endswith("StereoRequest")
+    bodies = [one["$ref"].split("/")[-1] for one in content["schema"]["anyOf"]]
+    assert bodies == ["StereoRequest", "RenderPairRequest"]
+    assert set(bodies) <= set(told["components"]["schemas"])
     assert "baseline_mm" in told["components"]["schemas"]["StereoWish"]["properties"]
+
+
+SEEN = {"phantom": {"name": "knee-1993"}, "camera": {"preset": "front", "columns": 40}}
+
+
+def test_a_body_with_a_camera_is_a_pair_in_visible_light(client) -> None:
+    answer = client.post(URL, json={**SEEN, "stereo": {"baseline_mm": 90, "layout": "cross_eyed"}})
+    assert answer.status_code == 200, answer.text
+    knee = phantom.library.build("knee-1993")
+    small = phantom.CameraPreset(preset="front", columns=40, rows=40)
+    levels = phantom.render_pair(knee, small, baseline_mm=90).levels()
+    expected = np.concatenate([levels["right"], levels["left"]], axis=1)
+    np.testing.assert_array_equal(image(answer.content), expected)
+    told = json.loads(answer.headers["x-phantom-geometry"])
+    assert told["baseline_mm"] == pytest.approx(90)
+    assert told["left"]["camera"]["eye"] != told["right"]["camera"]["eye"]
+
+
+def test_all_of_a_pair_in_visible_light_has_no_dicom(client) -> None:
+    answer = client.post(URL, json=SEEN, headers={"Accept": "application/zip"})
+    with zipfile.ZipFile(io.BytesIO(answer.content)) as whole:
+        names = whole.namelist()
+    assert "pair.exr" in names
+    assert not [name for name in names if name.endswith(".dcm")]
+    refused = client.post(
+        URL,
+        json={**SEEN, "stereo": {"layout": "files", "format": "dicom"}},
+        headers={"Accept": "application/zip"},
+    )
+    assert [p["path"] for p in refused.json()["problems"]] == ["/quantity"]

@@ -10,7 +10,7 @@ from fastapi.testclient import TestClient
 
 from api.app import create_app
 from api.settings import Settings
-from phantom.requests.words import RENDER_WORDS, STEREO_WORDS
+from phantom.requests.words import RENDER_PAIR_WORDS, RENDER_WORDS, STEREO_WORDS
 
 SPHERE = '{"type": "sphere", "center": [0, 0, 0], "radius": 5, "material": "a"}'
 
@@ -143,6 +143,17 @@ RENDERS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+SEEN_PAIRS: dict[str, dict[str, Any]] = {
+    "no baseline": {"baseline_mm": 0},
+    "a screen at the eyes": {"screen": {"pixel_pitch_mm": 0.27, "distance_mm": 0, "ipd_mm": 63}},
+    "a plane behind the camera": {"zero_parallax": {"plane_mm": -10}},
+    "a detector": {"zero_parallax": "detector"},
+    "a shift of parallel lines of sight": {"parallel": True},
+    "an unknown layout": {"layout": "hologram"},
+    "several at once": {"baseline_mm": -1, "mono": "both", "columns": 0},
+}
+
+
 @pytest.fixture(scope="module")
 def client() -> TestClient:
     return TestClient(create_app(Settings()), raise_server_exceptions=False)
@@ -226,6 +237,24 @@ def test_of_a_render(run, client, words: dict[str, Any]):
     options += ["--parallel"] * ("parallel" in words)
     there = client.post("/v1/renders", json=body)
     here = run("render", "sphere", *options, "--json", "-o", "never.png")
+    assert (there.status_code, here.exit_code) == (422, 2), here.stderr
+    problems = told(json.loads(here.stderr)["problems"])
+    assert problems
+    assert problems == told(there.json()["problems"])
+
+
+@pytest.mark.parametrize("words", SEEN_PAIRS.values(), ids=SEEN_PAIRS.keys())
+def test_of_a_pair_in_visible_light(run, client, words: dict[str, Any]):
+    body: dict[str, Any] = {"phantom": {"name": "sphere"}, "camera": {}}
+    for word, value in words.items():
+        section, name = RENDER_PAIR_WORDS[word]
+        body.setdefault(section, {})[name] = value
+    options = []
+    for word, value in words.items():
+        text = value if isinstance(value, str) else json.dumps(value)
+        options.append("--parallel" if word == "parallel" else f"--{word.replace('_', '-')}={text}")
+    there = client.post("/v1/stereo-pairs", json=body)
+    here = run("render-pair", "sphere", *options, "--json", "-o", "never.png")
     assert (there.status_code, here.exit_code) == (422, 2), here.stderr
     problems = told(json.loads(here.stderr)["problems"])
     assert problems

@@ -109,3 +109,24 @@ def test_what_a_png_cannot_be_is_told_before_anything_is_traced(
     assert done.exit_code == 2
     assert done.stderr.startswith(path)
     assert not list(tmp_path.iterdir())
+
+
+def test_two_eyes_see_a_phantom_in_visible_light(run, tmp_path: Path) -> None:
+    done = run("render-pair", *SMALL, "-o", str(tmp_path / "k.png"), "--layout", "anaglyph")
+    assert done.exit_code == 0, done.stderr
+    assert "eyes 65.0 mm" in done.stderr
+    assert image(tmp_path / "k.png").shape == (48, 48, 3)
+    run("render-pair", *SMALL, "-o", str(tmp_path / "k.zip"), "--sidecar", "--view", "left")
+    told = json.loads((tmp_path / "k.json").read_text())
+    assert told["camera"]["columns"] == 48
+    assert "dose" not in told["stereo"]
+    line = next(line for line in done.stderr.splitlines() if line.startswith("chosen: "))
+    words = dict(part.split("=", 1) for part in line.removeprefix("chosen: ").split())
+    flags = {"parallel", "shadows"}
+    options = [part for k, v in words.items() if k not in flags
+               for part in (f"--{k.replace('_', '-')}", v)]  # fmt: skip
+    again = run(
+        "render-pair", *SMALL, "-o", str(tmp_path / "b.png"), "--layout", "anaglyph", *options
+    )
+    assert again.exit_code == 0, again.stderr
+    assert (tmp_path / "k.png").read_bytes() == (tmp_path / "b.png").read_bytes()

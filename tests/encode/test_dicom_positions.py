@@ -115,3 +115,21 @@ def test_a_stereo_pair_of_a_breast_is_two_cranio_caudal_views(shot) -> None:
         found = pydicom.dcmread(io.BytesIO(encode(picture, format="dicom").data))
         assert found.ViewCodeSequence[0].CodeValue == CC
         assert float(found.PositionerPrimaryAngle) == pytest.approx(tilt)
+
+
+def test_an_eye_of_a_pair_is_named_by_the_view_between_the_eyes(shot) -> None:
+    """A tube moved forward over a breast is no longer a mammogram's by itself."""
+
+    class Eye(shot):
+        def metadata(self) -> dict[str, Any]:
+            told = super().metadata()
+            middle = {**self.view, "source": [0.0, 0.0, 600.0]}
+            return {**told, "stereo": {"eye": "left", "view": middle}}
+
+    for kind, modality in ((Eye, "MG"), (shot, "DX")):
+        picture = kind(region="breast")
+        picture.view["source"] = [0.0, -32.5, 600.0]
+        picture.view["detector"].update(center=[0, 0, 0], right=[0, -1, 0], down=[-1, 0, 0])
+        found = pydicom.dcmread(io.BytesIO(encode(picture, format="dicom").data))
+        assert found.Modality == modality
+        assert (kind is shot) or found.ViewCodeSequence[0].CodeValue == CC

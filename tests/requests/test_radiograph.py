@@ -10,6 +10,7 @@ import pytest
 from phantom import library
 from phantom.encode import format_named
 from phantom.errors import InvalidInputError
+from phantom.imaging import Acquisition
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import plan
 
@@ -322,3 +323,12 @@ def test_drawing_every_bin_holds_an_image_a_bin():
     with pytest.raises(InvalidInputError) as refusal:
         plan(request | {"acquisition": {"quantum_noise": "per_bin"}}, limits=limits)
     assert paths(refusal) == ["/acquisition"]
+
+
+def test_an_acquisition_without_a_dose_has_the_techniques_and_is_whole():
+    planned = plan({"phantom": {"name": "hand"}, "acquisition": {"samples_per_pixel": [2, 2]}})
+    usual = library.entry("hand").technique_of("pa").air_kerma_ugy
+    assert usual is not None
+    assert planned.acquisition == Acquisition(
+        detector_air_kerma_ugy=usual, samples_per_pixel=(2, 2)
+    )

@@ -1,5 +1,6 @@
 """Phong's light on solids whose first hits and normals are known in closed form."""
 
+import json
 import math
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 import phantom
 from phantom.errors import CancelledError, InvalidDocumentError, InvalidInputError
+from tests.oracles import documents
 
 LOOK = {"color": [0.9, 0.5, 0.2], "ambient": 0.15, "diffuse": 0.5, "specular": 0.3, "exponent": 12}
 COLOR = np.array(LOOK["color"])
@@ -194,6 +196,23 @@ def test_a_camera_in_a_solid_sees_its_wall_lit_from_within():
     inward = -(origins + distance[..., None] * directions) / 30
     expected = phong(inward, -directions, [(-directions, np.ones(3))])
     np.testing.assert_allclose(picture.rgb, expected, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("seed", [1, 2, 5, 6])
+def test_a_pixel_shows_the_phantom_where_x_rays_meet_it(seed, scale):
+    """Of random solids, from a micrometre to kilometres in size."""
+    solid = documents.tree(np.random.default_rng(seed), 3)
+    tree = documents.document({"type": "transformed", "scale": scale, "solid": solid})
+    shape = phantom.load(json.loads(json.dumps(tree)))
+    word = phantom.visible.CAMERA_NAMES[seed]
+    camera = phantom.preset_camera(shape.bounds, word, columns=64, rows=48, parallel=seed % 2 == 1)
+    picture = phantom.render(shape, camera, samples_per_pixel=1)
+    origins, directions = (rays.reshape(-1, 3) for rays in grid(camera))
+    lengths = phantom.path_lengths(shape, origins, directions).sum(axis=1).reshape(48, 64)
+    assert (lengths > 0).sum() > 20
+    np.testing.assert_array_equal(picture.coverage > 0, lengths > 0)
+    assert np.isfinite(picture.rgb).all()
 
 
 def test_coefficients_that_add_to_more_than_1_are_refused():

@@ -1,0 +1,237 @@
+"""The chest measured by the engine: published widths, and what no chest may be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from phantom import library
+from phantom.scene import Phantom, load
+from phantom.tracing import Intervals, intervals, materials_at
+
+Along = Callable[..., Intervals]
+SEXES = ("male", "female")
+
+# Means and standard deviations on PA radiographs, mm: Pan African Medical Journal 2017, 27:201.
+HEART = {"male": (130.8, 12.0), "female": (129.0, 13.0)}
+CHEST = {"male": (297.0, 27.0), "female": (271.0, 26.0)}
+RATIO = {"male": (0.466, 0.039), "female": (0.478, 0.048)}
+# Apex to right and left dome on PA radiographs: West African Journal of Medicine 2007.
+DOMES = {"male": (229.0, 244.0), "female": (215.0, 226.0)}
+SOURCE_MM, DETECTOR_MM = 1650.0, -150.0
+
+
+@pytest.fixture(scope="module")
+def chests() -> dict[str, Phantom]:
+    return {sex: library.build("chest", sex=sex) for sex in SEXES}
+
+
+def shadow(chest: Phantom, x_mm: Any, z_mm: Any) -> tuple[Intervals, Any, Any]:
+    """Pieces along rays of a PA view to points of its detector, and those points."""
+    aim = np.array(chest.isocentre)
+    x, z = (side.ravel() for side in np.meshgrid(x_mm, z_mm, indexing="ij"))
+    source = aim + np.array([0.0, SOURCE_MM, 0.0])
+    points = np.stack([x, np.full(x.size, aim[1] + DETECTOR_MM), z], axis=1)
+    found = intervals(chest, np.broadcast_to(source, points.shape), points - source)
+    return found, x, z
+
+
+def where(found: Intervals, *names: str) -> Any:
+    """Pick the rows of leaves by their labels' first or last words."""
+    wanted = [i for i, leaf in enumerate(found.leaf_names) if leaf.startswith(names)]
+    return np.isin(found.leaf, wanted)
+
+
+@pytest.mark.parametrize("sex", SEXES)
+def test_heart_chest_and_lungs_on_the_film_are_those_of_people(
+    chests: dict[str, Phantom], sex: str
+) -> None:
+    chest = chests[sex]
+    across, along = np.arange(-170.0, 170.5, 1.0), np.arange(-115.0, 20.0, 9.0)
+    found, x, _ = shadow(chest, across, along)
+    heart = np.ptp(x[found.ray[where(found, "heart")]])
+    lungs = np.ptp(x[found.ray[where(found, "left lung", "right lung")]])
+    assert abs(heart - HEART[sex][0]) < HEART[sex][1] / 2
+    assert abs(lungs - CHEST[sex][0]) < CHEST[sex][1] / 2
+    assert abs(heart / lungs - RATIO[sex][0]) < RATIO[sex][1]
+    assert heart / lungs < 0.5
+
+    for side, sign, height in (("right", -1.0, DOMES[sex][0]), ("left", 1.0, DOMES[sex][1])):
+        found, _, z = shadow(chest, sign * np.array([45.0, 60.0, 75.0]), np.arange(-190.0, 160.0))
+        dome = z[found.ray[where(found, "liver" if side == "right" else "stomach and spleen")]]
+        found, _, top = shadow(chest, sign * np.arange(25.0, 60.0, 5.0), np.arange(80.0, 160.0))
+        apex = top[found.ray[where(found, f"{side} lung")]].max()
+        assert apex - dome.max() == pytest.approx(height, abs=12.0)
+
+
+def test_right_dome_is_the_higher(chests: dict[str, Phantom]) -> None:
+    for chest in chests.values():
+        tops = dict(zip(chest.leaf_names, chest.leaf_bounds[:, 1, 2], strict=True))
+        assert 8.0 < tops["liver"] - tops["stomach and spleen"] < 25.0
+
+
+@pytest.mark.parametrize("sex", SEXES)
+def test_section_and_wall_of_the_sixth_rib(
+    chests: dict[str, Phantom], sex: str, along: Along
+) -> None:
+    """Measured where the rib runs straight forward: across is then along x, high along z."""
+    chest = chests[sex]
+    name = "left rib 6/cortex"
+    low, high = chest.leaf_bounds[chest.leaf_names.index(name)]
+    found = along(chest, "x", np.array([0.0]), np.arange(low[2], high[2], 0.25))
+    rows = where(found, name)
+    outer = np.isin(found.leaf, [chest.leaf_names.index("left rib 6/spongiosa")])
+    assert rows.any()
+    assert outer.any()
+    both = rows | outer
+    rays = np.unique(found.ray[both])
+    ends = (np.concatenate([found.entry_mm[on], found.exit_mm[on]]) for on in
+            (both & (found.ray == ray) for ray in rays))  # fmt: skip
+    thickness = [np.ptp(places) for places in ends]
+    walls = [
+        (found.exit_mm - found.entry_mm)[rows & (found.ray == r)]
+        for r in rays
+        if (rows & (found.ray == r)).sum() == 2
+    ]
+    expected = {"male": 7.2, "female": 6.6}[sex]
+    assert max(thickness) == pytest.approx(expected, rel=0.15)
+    # Journal of Anatomy 2019, 235:883: 1.4 mm on average, 0.9 to 2.6 mm among people.
+    assert min(wall.min() for wall in walls) == pytest.approx(1.4, abs=0.25)
+
+
+def test_vertebrae_and_discs(chests: dict[str, Phantom], along: Along) -> None:
+    """Bodies of T2 to T8 (dry bones of both sexes), anterior heights of discs in men."""
+    sizes = []
+    for chest in chests.values():
+        for level in ("T2", "T3", "T4", "T5", "T6", "T7", "T8"):
+            low, high = chest.leaf_bounds[chest.leaf_names.index(f"{level}/cortex")]
+            middle = (low + high) / 2
+            wide = along(chest, "x", middle[1], high[2] - 4.0)
+            deep = along(chest, "y", 0.0, middle[2] + 4.0)
+            tall = along(chest, "z", 0.0, middle[1])
+            sizes.append([_span(found, f"{level}/") for found in (wide, deep, tall)])
+    for mean, (published, sd) in zip(
+        np.mean(sizes, axis=0), ((27.0, 2.1), (20.8, 3.4), (17.2, 1.7)), strict=True
+    ):
+        assert abs(mean - published) < sd
+
+    man = chests["male"]
+    for upper, lower, published, sd in (("T4", "T5", 2.7, 0.7), ("T10", "T11", 5.4, 1.2)):
+        low, high = man.leaf_bounds[man.leaf_names.index(f"{lower}/cortex")]
+        found = along(man, "z", 0.0, (low[1] + high[1]) / 2 - 3.0)
+        above, below = where(found, f"{upper}/"), where(found, f"{lower}/")
+        gap = found.entry_mm[above].min() - found.exit_mm[below].max()
+        assert abs(gap - published) < sd
+
+
+def _span(found: Intervals, name: str) -> float:
+    rows = where(found, name + "cortex", name + "spongiosa")
+    return float(found.exit_mm[rows].max() - found.entry_mm[rows].min())
+
+
+def test_the_aorta_is_as_wide_as_an_aorta(chests: dict[str, Phantom], along: Along) -> None:
+    """Journal of Thoracic and Cardiovascular Surgery 2002, 123:1060, both sexes together."""
+    across = []
+    for chest in chests.values():
+        found = along(chest, "x", np.arange(0.0, 70.0, 2.0), -70.0)
+        rows = where(found, "aorta")
+        across.append((found.exit_mm - found.entry_mm)[rows].max())
+    assert abs(np.mean(across) - 24.3) < 3.5
+
+
+def test_a_body_has_skin_outside_and_no_holes(chests: dict[str, Phantom]) -> None:
+    rng = np.random.default_rng(12)
+    for chest in chests.values():
+        low, high = chest.bounds
+        target = rng.uniform(low + 20.0, high - 20.0, (700, 3))
+        way = rng.normal(size=(700, 3)) * [1.0, 1.0, 0.2]
+        way /= np.linalg.norm(way, axis=1)[:, None]
+        found = intervals(chest, target - 900.0 * way, way)
+        first = np.flatnonzero(np.diff(found.ray, prepend=-1))
+        last = np.append(first[1:] - 1, len(found.ray) - 1)
+        # Where the body is cut off, above, below and at the arms, its layers lie open.
+        at = (target - 900.0 * way)[found.ray] + found.entry_mm[:, None] * way[found.ray]
+        end = (target - 900.0 * way)[found.ray] + found.exit_mm[:, None] * way[found.ray]
+        extremes = np.concatenate([at, end]).min(axis=0), np.concatenate([at, end]).max(axis=0)
+        for rows, place in ((first, at), (last, end)):
+            open_cut = np.abs(place[rows] - extremes[0]).min(axis=1) < 2.0
+            open_cut |= np.abs(place[rows] - extremes[1]).min(axis=1) < 2.0
+            names = [found.leaf_names[leaf].split("/")[-1] for leaf in found.leaf[rows]]
+            materials = np.array(chest.material_names)[chest.leaf_materials[found.leaf[rows]]]
+            assert set(materials[~open_cut]) <= {"skin"}, names
+        bones = {"cortical_bone", "spongiosa", "arch_bone", "blade_bone"}
+        kinds = np.array(chest.material_names)[chest.leaf_materials[found.leaf]]
+        assert bones <= set(kinds)
+
+
+def test_no_rib_runs_through_a_lung(chests: dict[str, Phantom], along: Along) -> None:
+    """Points on the ribs' surfaces are not in the lungs of the same chest without its ribs."""
+    for chest in chests.values():
+        y, z = np.arange(-90.0, 90.0, 9.0), np.arange(-140.0, 120.0, 6.0)
+        found = along(chest, "x", y, z)
+        rows = where(found, "left rib", "right rib")
+        grid = np.stack([side.ravel() for side in np.meshgrid(y, z, indexing="ij")], axis=1)
+        points = np.concatenate(
+            [
+                np.column_stack([x[rows], grid[found.ray[rows]]])
+                for x in (found.entry_mm, found.exit_mm)
+            ]
+        )
+        assert len(points) > 1000
+        tree = chest.document.model_dump(mode="json")
+        tree["solid"]["solids"] = [
+            part
+            for part in tree["solid"]["solids"]
+            if not any(" rib " in (one.get("name") or "") for one in part.get("solids", ()))
+        ]
+        bare = load(tree)
+        assert len(bare.leaf_names) == len(chest.leaf_names) - 48
+        inside = materials_at(bare, points)[:, bare.material_names.index("lung")] > 0
+        assert not inside.any()
+
+
+def test_the_ribs_of_both_sides_mirror_each_other(chests: dict[str, Phantom]) -> None:
+    chest = chests["male"]
+    for number in range(1, 13):
+        for part in ("cortex", "spongiosa"):
+            boxes = [
+                chest.leaf_bounds[chest.leaf_names.index(f"{side} rib {number}/{part}")]
+                for side in ("left", "right")
+            ]
+            assert np.allclose(boxes[0][::-1, 0], -boxes[1][:, 0], atol=1e-9)
+            assert np.allclose(boxes[0][:, 1:], boxes[1][:, 1:], atol=1e-9)
+
+
+def test_the_same_seed_is_the_same_person_and_everyone_is_a_chest() -> None:
+    entry = library.entry("chest")
+    people = []
+    for seed in (7, 7, 8):
+        generator = np.random.default_rng(seed)
+        people.append(entry.of_person(library.Population().draw(generator), generator))
+    assert people[0] == people[1] != people[2]
+    for wanted in (people[0], people[2]):
+        load(entry.build(wanted).model_dump(mode="json"))
+
+
+def test_lengths_can_be_set_by_hand(along: Along) -> None:
+    asked = {"heart_width_mm": 110.0, "chest_width_mm": 250.0, "aorta_mm": 34.0}
+    chest = library.build("chest", **asked)
+    heart = np.ptp(chest.leaf_bounds[chest.leaf_names.index("heart")][:, 0])
+    assert heart == pytest.approx(110.0, abs=1.5)
+    outer = chest.leaf_bounds[chest.leaf_names.index("left rib 8/cortex")][1, 0]
+    assert 2 * (outer - 7.2) == pytest.approx(250.0, abs=2.5)
+    assert chest.document.parameters is not None
+    assert chest.document.parameters["rib_cortex_mm"] == pytest.approx(1.4, abs=0.1)
+
+
+@pytest.mark.nightly
+def test_a_thousand_people_are_chests() -> None:
+    """About an hour on two cores."""
+    entry = library.entry("chest")
+    generator = np.random.default_rng(1000)
+    for _ in range(1000):
+        wanted = entry.of_person(library.Population().draw(generator), generator)
+        load(entry.build(wanted).model_dump(mode="json"))
