@@ -27,9 +27,9 @@ from api.service import Service
 from api.settings import Settings
 from phantom.datasets import Design
 from phantom.document import Document
+from phantom.requests.draw import DrawRequest
 from phantom.requests.paths import PathLengthsRequest
 from phantom.requests.radiograph import RadiographRequest
-from phantom.requests.render import RenderRequest
 from phantom.requests.render_pair import RenderPairRequest
 from phantom.requests.stereo import StereoRequest
 from phantom.tracing import warm
@@ -39,7 +39,7 @@ BODIES = (
     Document,
     RadiographRequest,
     StereoRequest,
-    RenderRequest,
+    DrawRequest,
     RenderPairRequest,
     PathLengthsRequest,
     Design,

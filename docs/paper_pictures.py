@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 import phantom
 from phantom.encode import write_atomically
 from phantom.encode.png import png
-from phantom.visible.wireframe import wireframe
 
 IMAGES = Path("docs/images")
 SIDE = 520
@@ -60,8 +59,8 @@ def painted(name: str, look: dict[str, Any]) -> phantom.Phantom:
 
 
 def drawn(shape: phantom.Phantom, camera: Any, rings: int, lines: int) -> NDArray[np.uint8]:
-    net = wireframe(shape, camera, rings=rings, lines=lines, ink=INK, width_px=1.0)
-    return np.asarray(net.picture.levels(), dtype=np.uint8)
+    net = phantom.wireframe(shape, camera, rings=rings, lines=lines, ink=INK)
+    return np.asarray(net.levels(), dtype=np.uint8)
 
 
 def traced(shape: phantom.Phantom, camera: Any) -> NDArray[np.uint8]:

@@ -50,6 +50,13 @@ class MaterialRow:
     attenuation_per_mm: float
 
 
+def check_table_energy(energy_kev: float) -> None:
+    """Refuse a photon energy outside the tables (``/energy_kev``)."""
+    problems = [Problem("/energy_kev", p.kind, p.message) for p in check_energy(energy_kev)]
+    if problems:
+        raise InvalidInputError(problems)
+
+
 def material_rows(
     phantom: Phantom, energy_kev: float, mixtures: Sequence[tuple[int, ...]] = ()
 ) -> tuple[MaterialRow, ...]:
@@ -69,9 +76,7 @@ def material_rows(
     InvalidInputError
         At ``/energy_kev``, where the energy is outside the tables.
     """
-    problems = [Problem("/energy_kev", p.kind, p.message) for p in check_energy(energy_kev)]
-    if problems:
-        raise InvalidInputError(problems)
+    check_table_energy(energy_kev)
     count = len(phantom.material_names)
     single = [tuple(int(k == m) for k in range(count)) for m in range(count)]
     attenuations = attenuations_per_mm(phantom.document.materials, energy_kev).tolist()

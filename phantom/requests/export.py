@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from phantom.document import Model, told
-from phantom.document.base import Length, Number
+from phantom.document.base import Length, Number, refuse
 from phantom.errors import InvalidInputError, Problem
 from phantom.export import Exported, What, export_mesh, export_volume
 from phantom.export.files import (
@@ -19,8 +19,12 @@ from phantom.export.files import (
     DEFAULT_TOLERANCE_MM,
     is_volume,
 )
+from phantom.export.models import check_what
+from phantom.export.tables import check_table_energy
+from phantom.export.volumes import check_spacing
 from phantom.requests.subject import Subject, read_request
 from phantom.scene import Phantom
+from phantom.tessellation import check_tolerance
 
 EXPORT_WORDS: Final = {
     name: (name,) for name in ("what", "tolerance_mm", "spacing_mm", "energy_kev")
@@ -29,6 +33,13 @@ EXPORT_WORDS: Final = {
 
 _OF_MESHES: Final = ("what", "tolerance_mm")
 _OF_VOLUMES: Final = ("spacing_mm",)
+
+
+def _spacing(given: Any) -> tuple[float, float, float]:
+    try:
+        return check_spacing(given)
+    except InvalidInputError as error:
+        refuse("out_of_range", ((), error.problems[0].message))
 
 
 class ExportRequest(Model):
@@ -48,9 +59,10 @@ class ExportRequest(Model):
         Length, told("Tolerance", "mm", "How far a triangle may lie from the surface.")
     ] = DEFAULT_TOLERANCE_MM
     spacing_mm: Annotated[
-        Length | tuple[Length, Length, Length],
+        tuple[float, float, float],
+        BeforeValidator(_spacing),
         told("Spacing", "mm", "Of voxels: one length, or three along x, y and z."),
-    ] = DEFAULT_SPACING_MM
+    ] = (DEFAULT_SPACING_MM,) * 3
     energy_kev: Annotated[
         Annotated[Number, Field(gt=0)],
         told("Energy", "keV", "Photon energy of the attenuations in the table."),
@@ -134,6 +146,10 @@ def plan_export(
     ]
     if problems:
         raise InvalidInputError(problems)
+    check_table_energy(request.energy_kev)
+    if not volume:
+        check_what(request.what)
+        check_tolerance(request.tolerance_mm)
     chosen = {name: getattr(request, name) for name in EXPORT_WORDS if name not in idle}
     beside = None if table is None else Path(table)
     return ExportPlan(phantom, request, Path(output), beside, chosen)

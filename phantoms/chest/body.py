@@ -19,7 +19,7 @@ LAYERS: Final = ("muscle", "fat", "skin")
 """Inside out; each is drawn with all that it encloses."""
 # z, half-width, front and back of the trunk under its fat, drawn.
 _TRUNK: Final = (
-    (-250.0, 143.0, -102.0, 86.0),
+    (-280.0, 141.0, -101.0, 84.0),
     (-150.0, 151.0, -108.0, 98.0),
     (-100.0, 155.0, -109.0, 105.0),
     (-50.0, 157.0, -110.0, 111.0),
@@ -37,7 +37,7 @@ _TRUNK: Final = (
     (235.0, 57.0, -52.0, 54.0),
 )
 _TRUNK_SHAPE: Final = rounded(2.6)
-_ARM_RADII: Final = (42.0, 45.0, 44.0, 42.0, 40.0)
+_ARM_RADII: Final = (42.0, 45.0, 44.0, 42.0, 40.0, 40.0)
 
 
 def _fat(frame: Frame, z: float) -> float:

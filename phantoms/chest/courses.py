@@ -72,6 +72,7 @@ ARTERIES: Final[_Tables] = {
         ((49.0, 26.0, 9.0), 8.0), ((54.0, 28.0, -14.0), 6.6), ((58.0, 28.0, -36.0), 4.6),
     ),
 }  # fmt: skip
+# Veins, and the branches of the arch.
 VEINS: Final[_Tables] = {
     "superior vena cava": (
         ((-27.0, -20.0, 84.0), 8.0), ((-27.5, -24.0, 55.0), 8.8),

@@ -144,6 +144,7 @@ def arm_axis(frame: Frame) -> list[Point]:
         frame.at(HEAD[0] + 26.0, HEAD[1] - 4.0, HEAD[2] - 40.0),
         frame.at(HEAD[0] + 42.0, HEAD[1] - 8.0, HEAD[2] - 68.0),
         frame.at(HEAD[0] + 60.0, HEAD[1] - 12.0, HEAD[2] - 100.0),
+        frame.at(HEAD[0] + 112.0, HEAD[1] - 22.0, HEAD[2] - 190.0),
     ]
 
 
@@ -163,12 +164,12 @@ def humerus(frame: Frame) -> Solid:
     head = f.at(*HEAD)
     radius = _HEAD_RADIUS_MM * f.bone
     axis = arm_axis(f)
-    radii = [19.0, 19.5, 15.0, 12.5, 12.0]
+    radii = [19.0, 19.5, 15.0, 12.5, 12.0, 12.0]
     stations = [
         Station(p, (-r * f.bone, r * f.bone), (-r * f.bone, r * f.bone))
         for p, r in zip(axis, radii, strict=True)
     ]
-    inside = within(stations, [0.8, 1.0, 2.5, 4.0, 4.5], closed=(True, False))
+    inside = within(stations, [0.8, 1.0, 2.5, 4.0, 4.5, 4.5], closed=(True, False))
     cut = (arm_cut(f),)
     up = (0.0, 1.0, 0.0)
     return layered(

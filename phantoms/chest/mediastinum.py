@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from itertools import pairwise
 from typing import Final
 
 from phantom.document import Solid, SplineContour
 from phantoms.chest.cage import Cage
 from phantoms.chest.courses import AORTA, ARTERIES, BRONCHI, TRACHEA, VEINS, Course
 from phantoms.chest.frame import MODEL_HEART_MM, Frame
-from phantoms.chest.shapes import Row, column, cone, fitted, sampled, tube
+from phantoms.chest.shapes import Row, chain, column, fitted, sampled, tube
 from phantoms.chest.spine import spine_y
 from phantoms.parts import union
 
@@ -65,9 +64,9 @@ _MIDDLE: Final = (
 _NECKS_SHAPE: Final = SplineContour(
     type="spline",
     points=(
-        (0.0, -1.0), (0.32, -0.93), (0.46, -0.80), (0.58, -0.58), (0.70, -0.28), (0.85, 0.06),
-        (1.0, 0.32), (0.82, 0.58), (0.5, 0.88), (0.0, 1.0), (-0.5, 0.88), (-0.82, 0.58),
-        (-1.0, 0.32), (-0.85, 0.06), (-0.70, -0.28), (-0.58, -0.58), (-0.46, -0.80),
+        (0.0, -1.0), (0.32, -0.93), (0.46, -0.80), (0.58, -0.58), (0.70, -0.12), (0.85, 0.24),
+        (1.0, 0.55), (0.84, 0.78), (0.5, 0.95), (0.0, 1.0), (-0.5, 0.95), (-0.84, 0.78),
+        (-1.0, 0.55), (-0.85, 0.24), (-0.70, -0.12), (-0.58, -0.58), (-0.46, -0.80),
         (-0.32, -0.93),
     ),
 )  # fmt: skip
@@ -112,7 +111,7 @@ def great_vessels(frame: Frame) -> Solid:
     return union(
         aorta(frame),
         *_tubes(frame, ARTERIES, scale, "blood"),
-        *_tubes(frame, VEINS, scale, "blood"),
+        *_chains(frame, VEINS, 0.0, "", "blood"),
     )
 
 
@@ -120,26 +119,29 @@ def airways(frame: Frame) -> Solid:
     """Return the air in the trachea and the first bronchi."""
     return union(
         *_tubes(frame, {"trachea": TRACHEA}, frame.bone, "air"),
-        *_cones(frame, BRONCHI, 0.0, "", "air"),
+        *_chains(frame, BRONCHI, 0.0, "", "air"),
     )
 
 
 def bronchial_walls(frame: Frame) -> Solid:
     """Return the walls of the bronchi where they run through lung."""
-    return union(*_cones(frame, BRONCHI, 1.2, "wall of ", "soft_tissue"))
+    return union(*_chains(frame, BRONCHI, 1.2, "wall of ", "soft_tissue"))
 
 
-def _cones(
+def _chains(
     frame: Frame, tables: Mapping[str, Course], more_mm: float, before: str, material: str
 ) -> list[Solid]:
-    """Return tubes drawn as cones end to end, so much wider."""
-    found: list[Solid] = []
-    for name, table in tables.items():
-        for i, ((a, ra), (b, rb)) in enumerate(pairwise(table), 1):
-            radii = (ra * frame.bone + more_mm, rb * frame.bone + more_mm)
-            label = f"{before}{name} {i}"
-            found.append(cone(label, frame.at(*a), frame.at(*b), radii, material))
-    return found
+    """Return tubes drawn as chains of cones, so much wider."""
+    return [
+        part
+        for name, table in tables.items()
+        for part in chain(
+            before + name,
+            frame.path([p for p, _ in table]),
+            [r * frame.bone + more_mm for _, r in table],
+            material,
+        )
+    ]
 
 
 def middle(cage: Cage) -> Solid:
@@ -152,7 +154,9 @@ def middle(cage: Cage) -> Solid:
         y = spine_y(float(z))
         half = 19.5 + 3.0 * math.exp(-(((z + 60.0) / 90.0) ** 2))
         rows.append((float(z), -half, half, y - 15.0, y + 46.0))
-        behind.append((float(z), -66.0, 66.0, y + 1.0, y + 57.0))
+    for z in range(-240, 121, 40):
+        y = spine_y(float(z))
+        behind.append((float(z), -66.0, 66.0, y + 1.0, y + 47.0))
     beside = column("tissue beside the spine", fitted(f, rows), "muscle")
     necks = column("muscle about the ribs' necks", fitted(f, behind), "muscle", _NECKS_SHAPE)
     return union(core, beside, necks)

@@ -24,7 +24,7 @@ from phantom.document import (
     UpFrame,
 )
 from phantoms.chest.cage import Cage, FloatArray, RibLine
-from phantoms.chest.shapes import MIRROR, tube
+from phantoms.chest.shapes import MIRROR, chain
 from phantoms.parts import Station, chord_lengths, knots, layered, swept, union, within
 
 # Along a rib: height and thickness of its section over those at its middle, and its cortex.
@@ -207,6 +207,5 @@ def cartilage(cage: Cage, number: int) -> Solid:
         middle[2] = start[2] + 0.12 * (last[2] - start[2]) - dip - 2.0
     points = [start, last] if number == 1 else [start, middle, last]
     radii = np.linspace(radius, 0.8 * radius, len(points))
-    return tube(
-        f"costal cartilage {number}", [_point(p) for p in points], radii.tolist(), "cartilage"
-    )
+    places = [_point(p) for p in points]
+    return union(*chain(f"costal cartilage {number}", places, radii.tolist(), "cartilage"))

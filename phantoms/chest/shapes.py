@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 from phantom.document import (
@@ -73,6 +74,15 @@ def cone(
         start_radius=radii[0],
         end_radius=radii[1],
     )
+
+
+def chain(name: str, points: Sequence[Point], radii: Sequence[float], material: str) -> list[Solid]:
+    """Return a tube drawn as cones end to end, which build faster than one curve."""
+    ends = list(zip(points, radii, strict=True))
+    return [
+        cone(f"{name} {number}", a, b, (ra, rb), material)
+        for number, ((a, ra), (b, rb)) in enumerate(pairwise(ends), 1)
+    ]
 
 
 def bar(

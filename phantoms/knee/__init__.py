@@ -11,11 +11,10 @@ __all__ = ["Parameters", "build", "entry", "of_person"]
 
 
 def _technique(window: tuple[float, float]) -> Technique:
-    """Return the usual technique: 65 kV, no grid, the detector near."""
+    """Return the usual technique: 65 kV, no grid, the detector 100 mm off or as near as can be."""
     return Technique(
         kvp=65.0,
         source_detector_mm=1150.0,
-        object_detector_mm=100.0,
         window=window,
         air_kerma_ugy=2.5,
     )
@@ -28,8 +27,8 @@ entry = Entry(
     parameters=Parameters,
     build=build,
     views=("ap", "mediolateral", "lpo"),
-    technique=_technique((3.3, 4.0)),
-    techniques={"mediolateral": _technique((3.6, 4.6)), "lateromedial": _technique((3.6, 4.6))},
+    technique=_technique((3.1, 4.2)),
+    techniques={"mediolateral": _technique((3.2, 4.6)), "lateromedial": _technique((3.2, 4.6))},
     abnormalities=ABNORMALITIES,
     of_person=of_person,
 )

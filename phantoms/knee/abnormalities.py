@@ -18,17 +18,17 @@ from phantom.document.base import Number
 from phantom.library import Abnormality
 
 LesionSite = Literal[
-    "medial femoral condyle",
-    "lateral femoral condyle",
-    "distal femur",
-    "medial tibial plateau",
-    "lateral tibial plateau",
-    "proximal tibia",
+    "medial_femoral_condyle",
+    "lateral_femoral_condyle",
+    "distal_femur",
+    "medial_tibial_plateau",
+    "lateral_tibial_plateau",
+    "proximal_tibia",
     "patella",
 ]
-FractureSite = Literal["lateral tibial plateau", "tibial shaft", "femoral shaft", "patella"]
-LooseSite = Literal["suprapatellar pouch", "posterior recess", "medial gutter", "lateral gutter"]
-ForeignSite = Literal["front of the patella", "medial side", "lateral side", "back of the knee"]
+FractureSite = Literal["lateral_tibial_plateau", "tibial_shaft", "femoral_shaft", "patella"]
+LooseSite = Literal["suprapatellar_pouch", "posterior_recess", "medial_gutter", "lateral_gutter"]
+ForeignSite = Literal["front_of_the_patella", "medial_side", "lateral_side", "back_of_the_knee"]
 
 _OFFSET = told("Offset", "mm", "From the middle of the site, along x, y and z of a right knee.")
 
@@ -39,7 +39,7 @@ def _size(title: str, meaning: str, low: float, high: float) -> object:
 
 class _Lesion(Abnormality):
     site: Annotated[LesionSite, told("Site", "none", "Where in the spongy bone.")] = (
-        "medial tibial plateau"
+        "medial_tibial_plateau"
     )
     diameter_mm: Annotated[Number, _size("Diameter", "Of a sphere.", 2.0, 30.0)] = 14.0
     offset_mm: Annotated[Point, _OFFSET] = (0.0, 0.0, 0.0)
@@ -48,7 +48,7 @@ class _Lesion(Abnormality):
 class LyticLesion(_Lesion):
     """A sphere of spongy bone that has lost mineral."""
 
-    type: Literal["lytic-lesion"] = "lytic-lesion"
+    type: Literal["lytic_lesion"] = "lytic_lesion"
     mineral_change: Annotated[
         Number,
         Field(ge=0.01, le=1.0),
@@ -59,7 +59,7 @@ class LyticLesion(_Lesion):
 class BlasticLesion(_Lesion):
     """A sphere of spongy bone that has gained mineral."""
 
-    type: Literal["blastic-lesion"] = "blastic-lesion"
+    type: Literal["blastic_lesion"] = "blastic_lesion"
     mineral_change: Annotated[
         Number,
         Field(ge=0.01, le=1.5),
@@ -125,7 +125,7 @@ class Fracture(Abnormality):
 
     type: Literal["fracture"] = "fracture"
     site: Annotated[FractureSite, told("Site", "none", "Which bone, where.")] = (
-        "lateral tibial plateau"
+        "lateral_tibial_plateau"
     )
     gap_mm: Annotated[Number, _size("Gap", "Between the pieces.", 0.2, 3.0)] = 1.5
     step_mm: Annotated[Number, _size("Step", "Of one piece along the plane.", 0.0, 5.0)] = 2.0
@@ -145,8 +145,8 @@ class Effusion(Abnormality):
 class LooseBody(Abnormality):
     """A ball of bone adrift in the joint."""
 
-    type: Literal["loose-body"] = "loose-body"
-    site: Annotated[LooseSite, told("Site", "none", "Where in the joint.")] = "suprapatellar pouch"
+    type: Literal["loose_body"] = "loose_body"
+    site: Annotated[LooseSite, told("Site", "none", "Where in the joint.")] = "suprapatellar_pouch"
     diameter_mm: Annotated[Number, _size("Diameter", "Of a sphere.", 1.0, 14.0)] = 7.0
     offset_mm: Annotated[Point, _OFFSET] = (0.0, 0.0, 0.0)
 
@@ -154,8 +154,8 @@ class LooseBody(Abnormality):
 class ForeignBody(Abnormality):
     """A splinter under the skin, its length along the limb."""
 
-    type: Literal["foreign-body"] = "foreign-body"
-    site: Annotated[ForeignSite, told("Site", "none", "Where under the skin.")] = "medial side"
+    type: Literal["foreign_body"] = "foreign_body"
+    site: Annotated[ForeignSite, told("Site", "none", "Where under the skin.")] = "medial_side"
     material: Annotated[Literal["glass", "steel"], told("Material", "none", "Of what.")] = "glass"
     thickness_mm: Annotated[Number, _size("Thickness", "Across.", 0.3, 5.0)] = 2.0
     length_mm: Annotated[Number, _size("Length", "Along the limb.", 1.0, 25.0)] = 8.0
@@ -166,9 +166,9 @@ Wrong = Osteoarthritis | Fracture | LyticLesion | BlasticLesion | Effusion | Loo
 ABNORMALITIES: Final[dict[str, type[Abnormality]]] = {
     "osteoarthritis": Osteoarthritis,
     "fracture": Fracture,
-    "lytic-lesion": LyticLesion,
-    "blastic-lesion": BlasticLesion,
+    "lytic_lesion": LyticLesion,
+    "blastic_lesion": BlasticLesion,
     "effusion": Effusion,
-    "loose-body": LooseBody,
-    "foreign-body": ForeignBody,
+    "loose_body": LooseBody,
+    "foreign_body": ForeignBody,
 }

@@ -72,10 +72,10 @@ def _spurs(plan: Plan, name: str, one: Osteoarthritis, side: float) -> list[Soli
     for at_side, word in ((1.0, "medial"), (-1.0, "lateral")):
         spur = one.spur_mm if at_side == side else 0.4 * one.spur_mm
         on_tibia = plan.shin.point((at_side * (tibia_x - 1.0), 14.0 * along, -2.5))
-        on_femur = plan.thigh.point((at_side * (femur_x - 1.0), 16.0 * along, 12.0 * along))
+        on_femur = plan.thigh.point((at_side * (femur_x - 2.2), 16.0 * along, 7.6 * along))
         axes = (spur + 1.0, 11.0 * along, 0.45 * spur + 1.6)
         found.append(_spur(f"{name}, {word} spur of the tibia", on_tibia, axes))
-        axes = (spur + 1.0, 12.0 * along, 0.7 * spur + 2.5)
+        axes = (spur + 2.2, 12.0 * along, 0.45 * spur + 2.0)
         found.append(_spur(f"{name}, {word} spur of the femur", on_femur, axes))
     return found
 

@@ -84,7 +84,7 @@ def _landmarks(plan: Plan) -> dict[str, Point]:
     return {
         "isocentre": (0.0, 5.0, 4.0),
         "patella": (x, y - plan.sizes.patella_thickness / 2.0, z),
-        "medial_condyle": in_bone(plan, "medial femoral condyle").middle,
-        "lateral_condyle": in_bone(plan, "lateral femoral condyle").middle,
+        "medial_condyle": in_bone(plan, "medial_femoral_condyle").middle,
+        "lateral_condyle": in_bone(plan, "lateral_femoral_condyle").middle,
         "tibial_spines": spines,
     }

@@ -73,6 +73,8 @@ _ROOF: Final = ((9.0, 9.0), (33.0, 39.0))
 """Two points (y, z) of the roof of the notch, from the trochlea up and back."""
 _NOTCH_DEPTH: Final = 15.0
 _TAKEN_WALL_MM: Final = 1.4
+_BETWEEN: Final = ((0.0, 22.0, -1.5), (16.0, 30.0, 8.0))
+"""Center and semi-axes of what rounds the inner edges of the condyles."""
 # The groove of the trochlea: degrees round the bend, distance from its middle, and the semi-axes
 # of the ellipsoid across, outward and along.
 _GROOVE: Final = (46.0, 45.0, (17.0, 8.5, 40.0))
@@ -103,16 +105,16 @@ def lean_x(sizes: Sizes, z: float) -> float:
     return -math.tan(math.radians(sizes.valgus_deg)) * max(0.0, z - from_z)
 
 
-def condyle_stations(sizes: Sizes, more_mm: float = 0.0) -> list[Station]:
-    """Return the sections round the bend, ``more_mm`` thicker than the bone."""
+def _condyle_stations(sizes: Sizes) -> list[Station]:
+    """Return the sections round the bend."""
     across, along = scales(sizes)
     radius = BEND_RADIUS * along
     stations = []
     for angle_deg, half, inner, outer, _ in _CONDYLES:
         cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
         at = (0.0, BEND_YZ[0] * along - radius * cos, BEND_YZ[1] * along - radius * sin)
-        reach = (inner * along - radius, outer * along - radius + more_mm)
-        stations.append(Station(at, (-half * across - more_mm, half * across + more_mm), reach))
+        reach = (inner * along - radius, outer * along - radius)
+        stations.append(Station(at, (-half * across, half * across), reach))
     return stations
 
 
@@ -142,6 +144,8 @@ def stations_of(sizes: Sizes) -> tuple[list[Station], list[float]]:
     """Return the femur's sections from the shaft's top round to the back, and the wall at each."""
     top = sizes.limb + _BEYOND_MM
     zs = [row[0] for row in shaft_rows(sizes) if row[0] < top - 20.0]
+    if top - zs[-1] > 40.0:
+        zs.append((top + zs[-1]) / 2.0)
     stations, walls = [], []
     for z, y, half, back, front, wall in shaft_rows(sizes, [top, *reversed(zs)]):
         # The axis stays upright, and b is -y there; the section leans.
@@ -149,7 +153,7 @@ def stations_of(sizes: Sizes) -> tuple[list[Station], list[float]]:
         reach = (lean - half, lean + half)
         stations.append(Station((0.0, 0.0, z), reach, (-back - y, front - y)))
         walls.append(wall)
-    return stations + condyle_stations(sizes), walls + [row[4] for row in _CONDYLES]
+    return stations + _condyle_stations(sizes), walls + [row[4] for row in _CONDYLES]
 
 
 def _canal(sizes: Sizes, cuts: Sequence[Cut]) -> list[Solid]:
@@ -184,7 +188,14 @@ def tilted_ellipsoid(
 
 def _taken(sizes: Sizes, wall_mm: float) -> list[Solid]:
     """Return what is taken away of the condyles, or of what is a wall's thickness inside."""
-    return [_notch(sizes, wall_mm), _groove(sizes, wall_mm)]
+    across, along = scales(sizes)
+    (x, y, z), (a, b, c) = _BETWEEN
+    between = ellipsoid(
+        "between the condyles" if wall_mm == 0.0 else "wall between the condyles",
+        (x, y * along, z * along),
+        (a * across + wall_mm, b * along + wall_mm, c * along + wall_mm),
+    )
+    return [_notch(sizes, wall_mm), _groove(sizes, wall_mm), between]
 
 
 def _groove(sizes: Sizes, wall_mm: float) -> Solid:

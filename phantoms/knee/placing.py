@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from phantom.document import Point
@@ -78,10 +77,3 @@ def _profile(sizes: Sizes, share: float) -> list[tuple[float, float]]:
     y = axis(u)[:, 1] + reach * first[:, 2] / length
     z = axis(u)[:, 2] - reach * first[:, 1] / length
     return list(zip(y.tolist(), z.tolist(), strict=True))
-
-
-def turned(point: Point, about: Point, angle_deg: float) -> Point:
-    """Return a point turned about the y axis through another."""
-    x, z = point[0] - about[0], point[2] - about[2]
-    cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
-    return (about[0] + cos * x + sin * z, point[1], about[2] - sin * x + cos * z)

@@ -26,7 +26,7 @@ SHAFT: Final = 24.0
 FIBULA_SHAFT: Final = 13.0
 NOTCH: Final = 22.0
 
-# In the frame (x, -y): see tibia_stations.
+# In the frame (x, y): the crest in front at -1, a hollow behind, the medial side (x > 0) fuller.
 OUTLINE: Final[Outline] = (
     (0.02, -1.0),
     (0.5, -0.78),
@@ -122,7 +122,7 @@ def tibia(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
 
 
 def tibia_stations(sizes: Sizes) -> tuple[list[Station], list[float]]:
-    """Return the tibia's sections from over the plateau down, and the wall at each."""
+    """Return the tibia's sections from below to over the plateau, and the wall at each."""
     import numpy as np
 
     across, along = scales(sizes)
@@ -144,9 +144,8 @@ def tibia_stations(sizes: Sizes) -> tuple[list[Station], list[float]]:
     stations = [
         Station((0.0, y, row[0]), (row[1], row[2]), (row[3] - y, row[4] - y)) for row in rows
     ]
-    # The axis comes down, so that b = t x n is -y.
-    turned = [Station(s.at, s.x, (-s.b[1], -s.b[0])) for s in stations]
-    return turned, [row[5] for row in rows]
+    # From below, so that b = t x n is +y.
+    return stations[::-1], [row[5] for row in rows][::-1]
 
 
 def _canal(sizes: Sizes) -> Ellipsoid:

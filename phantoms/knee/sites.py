@@ -25,12 +25,12 @@ class Site(NamedTuple):
 
 
 _IN_BONE: Final = {
-    "medial femoral condyle": Site("femur", (27.0, 20.0, 21.0), 12.5),
-    "lateral femoral condyle": Site("femur", (-27.0, 20.0, 21.0), 12.5),
-    "distal femur": Site("femur", (0.0, 0.0, 60.0), 11.8),
-    "medial tibial plateau": Site("tibia", (15.5, 10.5, -15.5), 11.0),
-    "lateral tibial plateau": Site("tibia", (-15.0, 10.5, -15.5), 11.0),
-    "proximal tibia": Site("tibia", (0.6, 3.0, -40.0), 12.0),
+    "medial_femoral_condyle": Site("femur", (27.0, 20.0, 21.0), 12.5),
+    "lateral_femoral_condyle": Site("femur", (-27.0, 20.0, 21.0), 12.5),
+    "distal_femur": Site("femur", (0.0, 0.0, 60.0), 11.8),
+    "medial_tibial_plateau": Site("tibia", (15.5, 10.5, -15.5), 11.0),
+    "lateral_tibial_plateau": Site("tibia", (-15.0, 10.5, -15.5), 11.0),
+    "proximal_tibia": Site("tibia", (0.6, 3.0, -40.0), 12.0),
 }
 
 
@@ -45,7 +45,7 @@ def in_bone(plan: Plan, name: str) -> Site:
     scales = femur.scales(plan.sizes) if site.bone == "femur" else shin.scales(plan.sizes)
     x, y, z = site.middle
     drawn = (x * scales[0], y * scales[1], z * scales[1])
-    if name == "distal femur":
+    if name == "distal_femur":
         drawn = (lean_x(plan.sizes, drawn[2]), drawn[1], drawn[2])
     walls = max(0.0, plan.sizes.femur_cortex * 0.27 - 1.9)
     return Site(site.bone, plan.pose(site.bone).point(drawn), site.room * min(scales) - walls)
@@ -56,10 +56,10 @@ def in_joint(plan: Plan, name: str) -> Site:
     across, along = femur.scales(plan.sizes)
     lift = plan.at.femur_z
     middles = {
-        "suprapatellar pouch": Site("femur", (-3.0, -26.4, 64.0), 6.5),
-        "posterior recess": Site("femur", (0.0, 49.0, 30.0), 7.0),
-        "medial gutter": Site("femur", (48.6, 6.0, 32.0), 4.0),
-        "lateral gutter": Site("femur", (-48.6, 6.0, 32.0), 4.0),
+        "suprapatellar_pouch": Site("femur", (-3.0, -26.4, 64.0), 6.5),
+        "posterior_recess": Site("femur", (0.0, 49.0, 30.0), 7.0),
+        "medial_gutter": Site("femur", (48.6, 6.0, 32.0), 4.0),
+        "lateral_gutter": Site("femur", (-48.6, 6.0, 32.0), 4.0),
     }
     _, (x, y, z), room = middles[name]
     return Site("femur", (x * across, y * along, z * along + lift), room * min(across, along))
@@ -69,12 +69,12 @@ def under_skin(plan: Plan, name: str) -> Site:
     """Return a site between bone and skin."""
     across, along = femur.scales(plan.sizes)
     fat = plan.sizes.fat
-    if name == "front of the patella":
+    if name == "front_of_the_patella":
         x, y, z = plan.at.ridge
         room = (2.6 + max(0.4 * fat, 1.0)) / 2.0
         return Site("patella", (x, y - plan.sizes.patella_thickness - room - 0.2, z), room)
-    if name == "back of the knee":
+    if name == "back_of_the_knee":
         return Site("femur", (0.0, 52.0 * along, 6.0), 5.0)
     room = (4.0 + 0.9 * fat) / 2.0
-    side = 1.0 if name == "medial side" else -1.0
+    side = 1.0 if name == "medial_side" else -1.0
     return Site("femur", (side * (46.6 * across + room), 8.0, 12.0), room)

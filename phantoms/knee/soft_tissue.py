@@ -89,8 +89,8 @@ def inner_parts(sizes: Sizes, at: Placed) -> list[Solid]:
         return ellipsoid(name, center, scaled, "fat")
 
     return [
-        pad("suprapatellar fat pad", (0.0, ridge_y - 8.5 * along, top + 11.0), (15.0, 5.5, 11.0)),
-        pad("prefemoral fat pad", (-2.0, -23.0 * along, lift(76.0)), (16.0, 3.4, 24.0)),
+        pad("suprapatellar fat pad", (0.0, ridge_y - 8.5 * along, top + 11.0), (22.0, 6.0, 12.0)),
+        pad("prefemoral fat pad", (-2.0, -23.0 * along, lift(76.0)), (22.0, 4.4, 26.0)),
         pad("infrapatellar fat pad", (0.0, -19.0 * along, lift(3.0)), (19.0, 10.5, 17.0)),
         ellipsoid(
             "popliteal fat",

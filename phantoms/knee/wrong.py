@@ -53,7 +53,7 @@ def _names(wanted: Sequence[Wrong]) -> list[str]:
     """Return the findings' names: given, or the type with a number where it comes again."""
     found: list[str] = []
     for one in wanted:
-        plain = one.type.replace("-", " ")
+        plain = one.type.replace("_", " ")
         count = sum(other.type == one.type for other in wanted[: len(found)])
         found.append(one.name or (plain if count == 0 else f"{plain} {count + 1}"))
     return found
@@ -176,14 +176,14 @@ def _breaks(plan: Plan, one: known.Fracture) -> tuple[str, Point, Point, Point, 
     """Return bone, point and normal of the plane, the direction of the step, and the width."""
     tilt = math.radians(one.tilt_deg)
     sizes, at = plan.sizes, plan.at
-    if one.site == "femoral shaft":
+    if one.site == "femoral_shaft":
         z = 92.0 * femur.scales(sizes)[1] + at.femur_z
         x = femur.lean_x(sizes, z)
         up = (math.sin(tilt), 0.0, math.cos(tilt))
         return "femur", (x, -1.0, z), up, (math.cos(tilt), 0.0, -math.sin(tilt)), 34.0
     across, along = shin.scales(sizes)
-    if one.site == "tibial shaft":
-        point = plan.shin.point((0.0, 6.0, -84.0 * along))
+    if one.site == "tibial_shaft":
+        point = plan.shin.point((0.0, 6.0, -68.0 * along))
         below = (math.sin(tilt), 0.0, -math.cos(tilt))
         return "tibia", point, below, (math.cos(tilt), 0.0, math.sin(tilt)), 28.0 * across
     if one.site == "patella":

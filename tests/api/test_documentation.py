@@ -73,7 +73,13 @@ def test_every_call_has_one_address(client):
     routes = set(create_app(Settings()).openapi()["paths"])
     assert routes == {
         "/healthz",
+        "/v1/datasets",
         "/v1/documents/validate",
+        "/v1/jobs",
+        "/v1/jobs/{job}",
+        "/v1/jobs/{job}/events",
+        "/v1/jobs/{job}/results",
+        "/v1/jobs/{job}/results/{name}",
         "/v1/path-lengths",
         "/v1/phantoms",
         "/v1/phantoms/{name}",

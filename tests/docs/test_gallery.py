@@ -54,3 +54,22 @@ def test_phi_is_by_turns_within_and_beyond_the_first_contour(scene):
         first = np.full(len(u), ray.sweep.span[0])
         beyond = np.linalg.norm(phi, axis=1) - ray.sweep.radii(pseudo_angle(phi), first)
         assert np.sign(np.where(np.abs(beyond) < 1e-5, 0.0, beyond)).tolist() == expected
+
+
+def test_the_net_of_figure_8_covers_the_solid_beside_it():
+    """Both are seen by one camera: no line lies off the solid, and its outline is drawn."""
+    drawing = runpy.run_path(str(ROOT / "docs" / "paper_pictures.py"))
+    drawing["drawn"].__globals__["SIDE"] = 160
+    net, solid = (levels.min(axis=2) for levels in drawing["figure_8"]())
+    assert net.shape == solid.shape == (160, 160)
+    line, body = net < 200, solid < 250
+    near = np.any(
+        [np.roll(body, shift, axis=(0, 1)) for shift in ((0, 0), (0, 1), (1, 0), (0, -1), (-1, 0))],
+        axis=0,
+    )
+    assert line.sum() > 1000
+    assert not np.any(line & ~near)
+    for rows in np.flatnonzero(body.any(axis=1))[5:-5:10]:
+        ends, drawn = np.flatnonzero(body[rows]), np.flatnonzero(line[rows])
+        assert abs(drawn[0] - ends[0]) <= 2
+        assert abs(drawn[-1] - ends[-1]) <= 2

@@ -116,6 +116,7 @@ def test_fragments_of_a_rib_lie_apart_by_the_gap(healthy: Phantom, ill: Phantom)
         ({"type": "mass", "site": "right apex", "diameter_mm": 80.0}, "diameter_mm"),
         ({"type": "vertebral_lesion", "offset_mm": [10.0, 0.0, 0.0]}, "diameter_mm"),
         ({"type": "nodule", "diameter_mm": 31.0}, "diameter_mm"),
+        ({"type": "pneumothorax", "rim_mm": 4.0}, "rim_mm"),
         ({"type": "rib_fracture", "rib": 13}, "rib"),
         ({"type": "effusion", "depth_mm": 14.0}, "depth_mm"),
     ],
@@ -129,14 +130,21 @@ def test_what_does_not_fit_is_refused_with_its_place(given: dict[str, Any], path
     assert "expected" in problem.message
 
 
+def test_no_nodule_in_a_lung_that_is_drawn_in() -> None:
+    with pytest.raises(InvalidInputError) as refused:
+        library.document(
+            "chest", {}, [{"type": "nodule", "site": "lingula"}, {"type": "pneumothorax"}]
+        )
+    assert [problem.path for problem in refused.value.problems] == ["/abnormalities/0/site"]
+
+
 def test_limits_of_sizes_give_valid_chests() -> None:
     largest: list[dict[str, Any]] = [
         {"type": "nodule", "diameter_mm": 30.0, "site": "right lower lobe"},
-        {"type": "nodule", "diameter_mm": 2.0, "site": "lingula"},
+        {"type": "nodule", "diameter_mm": 2.0, "site": "right apex"},
         {"type": "effusion", "depth_mm": 120.0},
         {"type": "effusion", "depth_mm": 15.0, "side": "left"},
         {"type": "pneumothorax", "rim_mm": 60.0, "side": "left"},
-        {"type": "pneumothorax", "rim_mm": 5.0, "side": "right"},
         *({"type": "rib_fracture", "rib": n, "along": 0.08, "gap_mm": 5.0, "step_mm": 8.0}
           for n in (1, 6, 12)),
         {"type": "rib_fracture", "side": "left", "rib": 10, "along": 0.95, "gap_mm": 0.2,
