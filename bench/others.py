@@ -9,16 +9,24 @@ from pathlib import Path
 
 import numpy as np
 
+import phantom
 from bench.floor import CENTER, ELLIPSOIDS, SOURCE, WIDTH_MM
-from bench.meshes import mesh
 from bench.scenes import rays
+from phantom.tessellation import tessellate
+
+TOLERANCE_MM = 0.01
+"""Of the triangles: edges of about a millimetre, as in meshes that are segmented from CT."""
 
 
 def leaves(tree):
-    """Each leaf's mesh and its attenuation in 1/mm, in the document's order."""
+    """Each leaf's vertices and triangles, and its attenuation in 1/mm, in the document's order."""
+    meshes = tessellate(phantom.load(tree), TOLERANCE_MM)
     return [
-        (mesh(leaf), tree["materials"][leaf["material"]]["attenuation_per_mm"])
-        for leaf in tree["solid"]["solids"]
+        (
+            (mesh.vertices, mesh.triangles),
+            tree["materials"][leaf["material"]]["attenuation_per_mm"],
+        )
+        for mesh, leaf in zip(meshes, tree["solid"]["solids"], strict=True)
     ]
 
 

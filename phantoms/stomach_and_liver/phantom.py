@@ -149,7 +149,7 @@ entry = Entry(
     summary=_SUMMARY,
     parameters=Parameters,
     build=build,
-    views=("ap", "rao"),
+    views=("ap",),
     technique=Technique(kvp=78.0, source_detector_mm=1150.0, window=(5.0, 5.2), air_kerma_ugy=2.5),
     abnormalities=ABNORMALITIES,
     of_person=of_person,

@@ -180,6 +180,8 @@ def ribs(scale: float, trunk: Trunk) -> list[Solid]:
                 z = scale * (start_z - fall * math.sin(math.pi / 2 * share) ** 1.3)
                 size = 0.55 if index in (0, _RIB_SECTIONS) else 1.0 - 0.12 * share
                 rows.append(round_station((x, y, z), 5.9 * scale * size, 3.5 * scale * size))
+            # The end planes slope; what lies far above them is left out.
+            rows = [row for row in rows if row.at[2] < trunk.top + 30.0]
             inner = within(rows, 1.0 * scale, least_mm=0.4)
             up = (0.0, 0.0, 1.0)
             shell = swept("cortex", rows, CORTEX, up=up, cuts=trunk.ends[:1])

@@ -24,7 +24,7 @@ MIDDLE_MM: Final = 37.0
 _ROOM: Final = 0.95
 """How near to the cavity's wall organs may come."""
 _FOCUS_MM: Final = 1000.0
-_BEYOND_MM: Final = 40.0
+_BEYOND_MM: Final = 30.0
 """How far the parts reach beyond the ends before they are cut."""
 _OUTLINE: Final[Outline] = (
     (0.0, -1.0), (0.42, -0.94), (0.76, -0.72), (0.96, -0.34), (1.0, 0.08), (0.92, 0.5),
@@ -125,8 +125,8 @@ def lungs(trunk: Trunk, scale: float, highest_mm: float) -> list[Solid]:
         ),
         _ellipsoid(
             "middle",
-            (0.0, 0.0, scale * 120.0),
-            (0.3 * width, 0.9 * depth, scale * 90.0),
+            (0.0, 0.0, trunk.top - 55.0),
+            (0.3 * width, 0.9 * depth, 80.0),
             VISCERA,
             trunk.ends,
         ),
