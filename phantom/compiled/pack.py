@@ -48,7 +48,7 @@ def pack(leaves: list[PlacedLeaf], boxes: Floats, tree: Tree) -> Scene:
         plane_counts.append(len(offsets))
         if isinstance(shape, QuadricShape):
             part_counts.append(0)
-            form_rows.append(-1 if shape.form is None else sum(len(f) for f in forms))
+            form_rows.append(-1 if shape.form is None else len(forms) - 1)  # one row each
             if shape.form is not None:
                 forms.append(_form(shape, center))
         else:

@@ -63,10 +63,7 @@ def _first(design: Design, limits: Limits | None) -> RadiographPlan:
             of = maker.case(at)
         except InvalidInputError as error:
             raise InvalidInputError(prefixed("/phantom", error.problems)) from None
-        planned = maker.plan(at, of)
-        if limits is not None:
-            detector = planned.view.detector
-            limits.check_radiograph(detector.columns, detector.rows, len(of.phantom.material_names))
+        planned = maker.plan(at, of, limits)
         if design.stereo is not None:
             placed(of.phantom, planned.view, design.stereo)
         if design.outputs.form == "presentation" and planned.presentation.mode == "window":

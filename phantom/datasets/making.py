@@ -30,6 +30,7 @@ from phantom.imaging import (
     radiograph,
 )
 from phantom.imaging.stereo import EyePicture, pair_of
+from phantom.requests.limits import Limits
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest, plan_of
 
 if TYPE_CHECKING:
@@ -147,7 +148,7 @@ class Maker:
             self._own = load(asked.document)
         return self._own
 
-    def plan(self, at: Place, of: Case) -> RadiographPlan:
+    def plan(self, at: Place, of: Case, limits: Limits | None = None) -> RadiographPlan:
         """Return the radiograph that an image is, ready to be traced."""
         design = self.design
         tree = request(design, at, exposure(design, at))
@@ -158,7 +159,9 @@ class Maker:
         kept = design.outputs
         if kept.masks or kept.coco or design.abnormalities:
             tree["truth"] = [*{*tree["truth"], *OF_MASKS}]
-        return plan_of(validate_model(RadiographRequest, {**tree, "phantom": subject}), of.phantom)
+        asked_for = validate_model(RadiographRequest, {**tree, "phantom": subject})
+        pair = design.stereo is not None and design.stereo.mono is None
+        return plan_of(asked_for, of.phantom, limits, images=2 if pair else 1)
 
     def shoot(self, planned: RadiographPlan) -> Shot:
         """Return the picture, or the pair where the design has two eyes."""

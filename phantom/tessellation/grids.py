@@ -90,13 +90,16 @@ def grid(net: Net, tolerance_mm: float) -> Grid:
     target = _SHARE * tolerance_mm
     look = 0
     while True:
-        if len(u.piece) * len(v.piece) > MOST_CELLS:
+        # Before what would be in vain is sampled: a cell that is k times off needs k of them.
+        expected = float(len(u.piece) * len(v.piece))
+        if expected <= MOST_CELLS:
+            more_u, more_v, rising, expected = _judged(net, u, v, _LOOKS[look], target)
+        if expected > MOST_CELLS:
             message = (
-                f"found {tolerance_mm:g} mm, for which one solid needs more than {MOST_CELLS} "
-                "cells; expected a larger tolerance"
+                f"found {tolerance_mm:g} mm, for which one solid needs some {expected:.2g} cells; "
+                f"expected a larger tolerance, for {MOST_CELLS} at most"
             )
             raise InvalidInputError([Problem("/tolerance_mm", "too_fine", message)])
-        more_u, more_v, rising = _judged(net, u, v, _LOOKS[look], target)
         if more_u.max() == more_v.max() == 1:
             look += 1
             if look == len(_LOOKS):
@@ -131,8 +134,12 @@ def _begun(net: Net, tolerance_mm: float, *, along: bool) -> Lines:
 
 def _judged(
     net: Net, u: Lines, v: Lines, fractions: Floats, target: float
-) -> tuple[Ints, Ints, Flags]:
-    """Return into how many parts each interval is to be divided, and each cell's diagonal."""
+) -> tuple[Ints, Ints, Flags, float]:
+    """Return into how many parts each interval is to be divided, and each cell's diagonal.
+
+    And how many cells there will be, at least, in the end.
+    """
+    expected = 0.0
     more_u = np.ones(len(u.piece), dtype=np.intp)
     more_v = np.ones(len(v.piece), dtype=np.intp)
     rising = np.ones((len(u.piece), len(v.piece)), dtype=np.bool_)
@@ -145,6 +152,7 @@ def _judged(
         off, off_u, off_v, up = _measured(found, fractions)
         rising[first:last] = up
         bad = off > target
+        expected += float(np.maximum(off / target, 1.0).sum())
         if not bad.any():
             continue
         # A twist shows along neither side: the longer one is divided.
@@ -160,7 +168,7 @@ def _judged(
         needed = np.where(bad, np.clip(needed, 2, _MOST_PARTS), 1).astype(np.intp)
         more_u[first:last] = np.where(along, needed, 1).max(axis=1)
         more_v = np.maximum(more_v, np.where(along, 1, needed).max(axis=0))
-    return more_u, more_v, rising
+    return more_u, more_v, rising, expected
 
 
 def _measured(found: Floats, fractions: Floats) -> tuple[Floats, Floats, Floats, Flags]:

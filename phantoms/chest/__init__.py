@@ -20,7 +20,7 @@ _PA = Technique(
     air_kerma_ugy=2.5,
     field_mm=410.0,
 )
-_LATERAL = replace(_PA, object_detector_mm=230.0, window=(4.3, 5.4))
+_LATERAL = replace(_PA, object_detector_mm=240.0, window=(4.5, 6.0))
 
 entry = Entry(
     name="chest",

@@ -9,7 +9,7 @@ import numpy as np
 from phantom.document import GeneralizedCylinder, Rotation, Solid, Sphere, Transformed
 from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
-from phantoms.chest.girdle import arm_axis, arm_cut
+from phantoms.chest.girdle import arm_axis, kept
 from phantoms.chest.ribs import SIDES, on_side
 from phantoms.chest.shapes import Row, column, fitted, grown, rounded, sampled, tube
 from phantoms.parts import ellipsoid, union
@@ -27,10 +27,10 @@ _TRUNK: Final = (
     (35.0, 166.0, -97.0, 115.0),
     (62.0, 172.0, -86.0, 111.0),
     (84.0, 176.0, -76.0, 104.0),
-    (98.0, 168.0, -70.0, 98.0),
-    (110.0, 148.0, -64.0, 92.0),
-    (122.0, 116.0, -56.0, 86.0),
-    (136.0, 86.0, -50.0, 78.0),
+    (98.0, 173.0, -70.0, 98.0),
+    (110.0, 161.0, -64.0, 92.0),
+    (122.0, 131.0, -56.0, 86.0),
+    (136.0, 92.0, -50.0, 78.0),
     (152.0, 66.0, -46.0, 68.0),
     (170.0, 58.0, -46.0, 60.0),
     (188.0, 56.0, -48.0, 56.0),
@@ -66,7 +66,7 @@ def _arm(frame: Frame, name: str, material: str, layer: int) -> GeneralizedCylin
     more = (0.0, fat, fat + SKIN_MM)[layer]
     points = arm_axis(frame)
     radii = [r * frame.bone + more for r in _ARM_RADII]
-    return tube(name, points, radii, material).model_copy(update={"cuts": (arm_cut(frame),)})
+    return tube(name, points, radii, material)
 
 
 def _shoulder(frame: Frame, name: str, material: str, layer: int) -> Solid:
@@ -78,7 +78,6 @@ def _shoulder(frame: Frame, name: str, material: str, layer: int) -> Solid:
         material=material,
         center=arm_axis(frame)[0],
         radius=_ARM_RADII[0] * frame.bone + more,
-        cuts=(arm_cut(frame),),
     )
 
 
@@ -110,10 +109,8 @@ def definitions(cage: Cage, sex: str) -> dict[str, Solid]:
     f = cage.frame
     found: dict[str, Solid] = {}
     for layer, material in enumerate(LAYERS):
-        parts: list[Solid] = [
-            _arm(f, "arm", material, layer),
-            _shoulder(f, "shoulder", material, layer),
-        ]
+        arm = union(_arm(f, "arm", material, layer), _shoulder(f, "shoulder", material, layer))
+        parts: list[Solid] = [kept(f, arm)]
         if sex == "female" and layer > 0:
             parts.append(breast(cage, layer))
         found[f"{material} of a side"] = union(*parts)

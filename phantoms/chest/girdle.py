@@ -11,8 +11,9 @@ from typing import Final
 import numpy as np
 
 from phantom.document import (
-    Cut,
+    Box,
     GeneralizedCylinder,
+    Intersection,
     LineAxis,
     Point,
     Solid,
@@ -153,9 +154,12 @@ def cut_x(frame: Frame) -> float:
     return CUT_X_MM * frame.x
 
 
-def arm_cut(frame: Frame) -> Cut:
-    """Return the plane that cuts a left arm."""
-    return Cut(point=(cut_x(frame), 0.0, 0.0), normal=(1.0, 0.0, 0.0))
+def kept(frame: Frame, arm: Solid) -> Solid:
+    """Return what of a left arm lies before the plane at which arms are cut."""
+    far = 1000.0
+    middle = (cut_x(frame) - far / 2, 0.0, 0.0)
+    room = Box(type="box", name="bounds of the arm", center=middle, size=(far, far, far))
+    return Intersection(type="intersection", solids=(arm, room))
 
 
 def humerus(frame: Frame) -> Solid:
@@ -170,11 +174,11 @@ def humerus(frame: Frame) -> Solid:
         for p, r in zip(axis, radii, strict=True)
     ]
     inside = within(stations, [0.8, 1.0, 2.5, 4.0, 4.5, 4.5], closed=(True, False))
-    cut = (arm_cut(f),)
     up = (0.0, 1.0, 0.0)
-    return layered(
+    bone = layered(
         ellipsoid("head", head, (radius, radius, radius), "cortical_bone"),
-        swept("cortex", stations, "cortical_bone", up=up, cuts=cut),
+        swept("cortex", stations, "cortical_bone", up=up),
         ellipsoid("spongiosa of the head", head, (radius - 0.9,) * 3, "spongiosa"),
-        swept("spongiosa", inside, "spongiosa", up=up, cuts=cut),
+        swept("spongiosa", inside, "spongiosa", up=up),
     )
+    return kept(f, bone)

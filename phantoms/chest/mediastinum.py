@@ -153,7 +153,8 @@ def middle(cage: Cage) -> Solid:
     for z in range(-230, 235, 45):
         y = spine_y(float(z))
         half = 19.5 + 3.0 * math.exp(-(((z + 60.0) / 90.0) ** 2))
-        rows.append((float(z), -half, half, y - 15.0, y + 46.0))
+        back = 46.0 if z < 130 else 32.0
+        rows.append((float(z), -half, half, y - 15.0, y + back))
     for z in range(-240, 121, 40):
         y = spine_y(float(z))
         behind.append((float(z), -66.0, 66.0, y + 1.0, y + 47.0))

@@ -19,8 +19,9 @@ from phantom.document import Cut, Cylinder, Difference, Point, Rotation, Solid, 
 from phantoms.knee.sizes import Sizes
 from phantoms.parts import Outline, Station, ellipsoid, is_left, layered, swept, within
 
-WIDTH: Final = 88.6
-DEPTH: Final = 61.1
+WIDTH: Final = 88.45
+DEPTH: Final = 60.08
+"""Of the tables' condyles, as traced."""
 SHAFT: Final = 26.5
 
 # In the frame (x, outward): behind the shaft and within the bend b = -1, in front of the shaft and

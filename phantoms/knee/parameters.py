@@ -94,7 +94,7 @@ class Parameters(PersonParameters):
         Number,
         Field(ge=110.0, le=230.0),
         told("Limb", "mm", "How far the limb reaches above and below the joint."),
-    ] = 150.0
+    ] = 125.0
     bicondylar_width_mm: Annotated[
         Null, _length("Bicondylar width", "Across the femur's condyles.", 60.0, 110.0)
     ] = None

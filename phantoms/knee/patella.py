@@ -11,6 +11,8 @@ from phantoms.knee.sizes import Sizes
 from phantoms.parts import ellipsoid, layered
 
 _WALL_MM: Final = 1.5
+_WIDER: Final = 1.011
+"""The facets cut into the ellipsoid's width."""
 _FACETS_DEG: Final = (24.0, 31.0)
 """How far the lateral and the medial facet fall away from the ridge (estimates)."""
 _RIDGE: Final = 0.04
@@ -54,7 +56,7 @@ def _shape(
         name,
         (0.0, -_BLUNT * half, 0.0),
         (
-            sizes.patella_width / 2.0 - wall_mm,
+            _WIDER * sizes.patella_width / 2.0 - wall_mm,
             half - wall_mm,
             sizes.patella_height / 2.0 - wall_mm,
         ),

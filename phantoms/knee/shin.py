@@ -20,8 +20,9 @@ from phantoms.knee.femur import tilted_ellipsoid
 from phantoms.knee.sizes import Sizes
 from phantoms.parts import Outline, Station, ellipsoid, is_left, layered, swept, union, within
 
-WIDTH: Final = 76.1
-DEPTH: Final = 48.2
+WIDTH: Final = 75.87
+DEPTH: Final = 47.75
+"""Of the table's plateau, as traced."""
 SHAFT: Final = 24.0
 FIBULA_SHAFT: Final = 13.0
 NOTCH: Final = 22.0

@@ -177,7 +177,7 @@ def _breaks(plan: Plan, one: known.Fracture) -> tuple[str, Point, Point, Point, 
     tilt = math.radians(one.tilt_deg)
     sizes, at = plan.sizes, plan.at
     if one.site == "femoral_shaft":
-        z = 92.0 * femur.scales(sizes)[1] + at.femur_z
+        z = min(92.0 * femur.scales(sizes)[1] + at.femur_z, sizes.limb - 16.0)
         x = femur.lean_x(sizes, z)
         up = (math.sin(tilt), 0.0, math.cos(tilt))
         return "femur", (x, -1.0, z), up, (math.cos(tilt), 0.0, -math.sin(tilt)), 34.0

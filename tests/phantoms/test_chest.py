@@ -146,8 +146,8 @@ def test_a_body_has_skin_outside_and_no_holes(chests: dict[str, Phantom]) -> Non
     rng = np.random.default_rng(12)
     for chest in chests.values():
         low, high = chest.bounds
-        target = rng.uniform(low + 20.0, high - 20.0, (700, 3))
-        way = rng.normal(size=(700, 3)) * [1.0, 1.0, 0.2]
+        target = rng.uniform(low + 20.0, high - 20.0, (2000, 3))
+        way = rng.normal(size=(2000, 3)) * [1.0, 1.0, 0.2]
         way /= np.linalg.norm(way, axis=1)[:, None]
         found = intervals(chest, target - 900.0 * way, way)
         first = np.flatnonzero(np.diff(found.ray, prepend=-1))

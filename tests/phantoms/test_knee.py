@@ -122,6 +122,25 @@ def test_walls_thin_toward_the_joint() -> None:
     assert walls[2] > 1.0
 
 
+def test_lengths_set_by_hand_are_those_of_the_bones() -> None:
+    phantom = library.build(
+        "knee",
+        bicondylar_width_mm=84.0,
+        condylar_depth_mm=64.0,
+        plateau_width_mm=80.0,
+        plateau_depth_mm=46.0,
+        slope_deg=6.0,
+    )
+    across = along(phantom, "x", np.arange(-10.0, 40.0, 1.0), np.arange(20.0, 45.0, 1.0))
+    assert extent_mm(across, "femur") == pytest.approx(84.0, abs=0.4)
+    depth = along(phantom, "y", np.arange(-40.0, 41.0, 1.0), np.arange(3.0, 48.0, 1.0))
+    assert extent_mm(depth, "femur") == pytest.approx(64.0, abs=0.4)
+    plateau = along(phantom, "x", np.arange(-10.0, 36.0, 1.0), np.arange(-14.0, -3.5, 0.5))
+    assert extent_mm(plateau, "tibia") == pytest.approx(80.0, abs=0.4)
+    deep = along(phantom, "y", np.arange(-36.0, 37.0, 1.0), np.arange(-14.0, -5.0, 0.5))
+    assert extent_mm(deep, "tibia") == pytest.approx(46.0, abs=0.5)
+
+
 @pytest.mark.parametrize("space", [2.5, 5.0, 9.0])
 def test_joint_space_is_what_was_asked_for(space: float) -> None:
     phantom = library.build("knee", joint_space_mm=space)

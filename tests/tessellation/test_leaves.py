@@ -127,7 +127,7 @@ CLOSED_FORMS = {
 @pytest.mark.parametrize("name", CLOSED_FORMS)
 def test_volumes_come_near_closed_forms_as_the_tolerance_falls(name, solid):
     leaf, exact = CLOSED_FORMS[name]
-    errors = [abs(one(solid(**leaf), t).volume_mm3 - exact) / exact for t in (0.2, 0.02, 0.002)]
+    errors = [abs(one(solid(**leaf), t).volume_mm3 - exact) / exact for t in (0.4, 0.04, 0.004)]
     assert errors[2] < 3e-3
     # A chord's height is the square of its length: a tenth of the one, a tenth of the error.
     assert errors[0] < 1e-12 or errors[2] < 0.03 * errors[0]
@@ -198,20 +198,20 @@ def test_a_cut_through_a_ring_leaves_two_discs_or_a_ring_with_a_hole(solid):
     upright = {"point": [0, 0, 0], "normal": [0, 1, 0]}
     flat = {"point": [0, 0, 2], "normal": [0, 0, 1]}
     whole = 2 * math.pi**2 * 30 * 100
-    half = one(solid(**TORUS, cuts=[upright]), 0.01)
-    assert half.volume_mm3 == pytest.approx(whole / 2, rel=2e-3)
-    pieces = one(solid(**TORUS, cuts=[upright, flat]), 0.01)
+    half = one(solid(**TORUS, cuts=[upright]), 0.03)
+    assert half.volume_mm3 == pytest.approx(whole / 2, rel=5e-3)
+    pieces = one(solid(**TORUS, cuts=[upright, flat]), 0.03)
     # The part of a disc below a chord, swept half round its centre's circle (Pappus).
     angle = 2 * math.acos(0.2)
     segment = 50 * (angle - math.sin(angle))
-    assert pieces.volume_mm3 == pytest.approx(math.pi * 30 * (math.pi * 100 - segment), rel=2e-3)
-    ring = one(solid(**TORUS, cuts=[flat]), 0.01)
+    assert pieces.volume_mm3 == pytest.approx(math.pi * 30 * (math.pi * 100 - segment), rel=5e-3)
+    ring = one(solid(**TORUS, cuts=[flat]), 0.03)
     lid = ring.sheets == ring.sheets.max()
     corners = ring.vertices[ring.triangles[lid]]
     assert np.all(corners[..., 2] == pytest.approx(2.0, abs=1e-9))
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
     width = math.sqrt(96)
-    assert areas.sum() == pytest.approx(math.pi * ((30 + width) ** 2 - (30 - width) ** 2), rel=1e-3)
+    assert areas.sum() == pytest.approx(math.pi * ((30 + width) ** 2 - (30 - width) ** 2), rel=5e-3)
     assert areas.min() >= -1e-9
 
 
