@@ -22,9 +22,13 @@ class Case:
 
 @dataclass(frozen=True)
 class Times:
-    """Seconds of one case, in the order in which they were taken."""
+    """Seconds of one case, in the order in which they were taken.
+
+    ``processor`` is what all threads spent together: it counts nothing that others run.
+    """
 
     seconds: tuple[float, ...]
+    processor: tuple[float, ...]
 
     @property
     def median(self):
@@ -33,6 +37,10 @@ class Times:
     @property
     def spread(self):
         return min(self.seconds), max(self.seconds)
+
+    @property
+    def processor_median(self):
+        return statistics.median(self.processor)
 
     def ms(self):
         """Median and spread for a table, in ms."""
@@ -54,10 +62,11 @@ def in_turns(cases, rounds, say=print):
     for k in range(rounds):
         for case in cases:
             if k < case.rounds:
-                start = time.perf_counter()
+                start, spent = time.perf_counter(), time.process_time()
                 case.run()
-                found[case.name].append(time.perf_counter() - start)
-    return {name: Times(tuple(seconds)) for name, seconds in found.items()}
+                spent = time.process_time() - spent
+                found[case.name].append((time.perf_counter() - start, spent))
+    return {name: Times(*map(tuple, zip(*pairs, strict=True))) for name, pairs in found.items()}
 
 
 def machine():

@@ -88,76 +88,6 @@ def look(ends: Floats, slots: int, start: int, width: int, masks: Ints, met: Int
 
 
 @inner
-def span(
-    scene: Scene,
-    held: Scratch,
-    row: int,
-    column: int,
-    start: int,
-    width: int,
-    number: int,
-    to_row: int,
-    to_column: int,
-    out: Floats,
-) -> int:
-    """Fill pixels of a row from their ``number`` ends, named in ``held.kept``; return how many.
-
-    They begin at lane ``start``, and are at most ``width``: those before the first one whose ends
-    come in another order.
-    """
-    ends, owners, order, events = held.ends, held.owners, held.order, held.events
-    wrong, factors, sums = held.wrong, held.factors, held.sums
-    present, nodes, kept = held.present, held.nodes, held.kept
-    leaves = len(scene.leaf_radius)
-    root = len(scene.parent) - 1
-    channels = out.shape[0]
-    for e in range(number):
-        order[e] = e
-        events[e] = ends[kept[e], start]
-    sort_events(events, order, number)
-    for e in range(number):
-        order[e] = kept[order[e]]
-    for m in range(width):
-        wrong[m] = 0
-    for e in range(number - 1):
-        falls(ends, order[e], order[e + 1], start, width, wrong)
-    alike = whole(1)
-    while alike < width and wrong[alike] == 0:
-        alike += 1
-    for channel in range(channels):
-        for e in range(number):
-            factors[channel, e] = 0.0
-    for e in range(number):
-        toggle(
-            owners[order[e] // 2],
-            present,
-            scene.parent,
-            scene.operator,
-            scene.left,
-            scene.right,
-        )
-        if e == number - 1:
-            break
-        for m in range(
-            surviving(root, leaves, present, scene.operator, scene.left, scene.right, nodes, kept)
-        ):
-            channel = scene.leaf_material[kept[m]]
-            if channel >= 0:
-                factors[channel, e] -= 1.0
-                factors[channel, e + 1] += 1.0
-    for channel in range(channels):
-        used = False
-        for e in range(number):
-            if factors[channel, e] != 0.0:
-                add(ends, order[e], factors[channel, e], start, alike, sums)
-                used = True
-        if used:
-            to = out[channel, to_row, to_column : to_column + alike]
-            put(sums, held.rays, row, column, alike, to)
-    return alike
-
-
-@inner
 def combine(
     scene: Scene,
     held: Scratch,
@@ -171,17 +101,24 @@ def combine(
     """Fill a tile of ``out`` (M, ., .), which begins at a row and a column there, from its slots.
 
     A row is looked at whole; where its pixels meet more slots than a mask has bits, half of it,
-    and so on down to one pixel. What a pixel gets depends on nothing but its own ends.
+    and so on down to one pixel. What a pixel gets depends on nothing but its own ends. One long
+    function: handing a scene to another costs more than most spans do.
     """
-    masks, met, kept = held.masks, held.met, held.kept
+    masks, met = held.masks, held.met
+    ends, owners, order, events = held.ends, held.owners, held.order, held.events
+    wrong, factors, sums = held.wrong, held.factors, held.sums
+    present, nodes, kept = held.present, held.nodes, held.kept
+    leaves = len(scene.leaf_radius)
+    root = len(scene.parent) - 1
+    channels = out.shape[0]
     for i in range(rows):
         first = 0
         while first < columns:
             last = columns
-            count = look(held.ends, slots, i * columns + first, last - first, masks, met)
+            count = look(ends, slots, i * columns + first, last - first, masks, met)
             while count < 0:
                 last = first + (last - first + 1) // 2
-                count = look(held.ends, slots, i * columns + first, last - first, masks, met)
+                count = look(ends, slots, i * columns + first, last - first, masks, met)
             alone = last - first == 1
             j = first
             while j < last:
@@ -199,6 +136,58 @@ def combine(
                         kept[number] = 2 * met[bit]
                         kept[number + 1] = 2 * met[bit] + 1
                         number += 2
-                start = i * columns + j
-                j += span(scene, held, i, j, start, end - j, number, to_row + i, to_column + j, out)
+                start, width = i * columns + j, end - j
+                for e in range(number):
+                    order[e] = e
+                    events[e] = ends[kept[e], start]
+                sort_events(events, order, number)
+                for e in range(number):
+                    order[e] = kept[order[e]]
+                for m in range(width):
+                    wrong[m] = 0
+                for e in range(number - 1):
+                    falls(ends, order[e], order[e + 1], start, width, wrong)
+                alike = whole(1)
+                while alike < width and wrong[alike] == 0:
+                    alike += 1
+                for channel in range(channels):
+                    for e in range(number):
+                        factors[channel, e] = 0.0
+                for e in range(number):
+                    toggle(
+                        owners[order[e] // 2],
+                        present,
+                        scene.parent,
+                        scene.operator,
+                        scene.left,
+                        scene.right,
+                    )
+                    if e == number - 1:
+                        break
+                    for m in range(
+                        surviving(
+                            root,
+                            leaves,
+                            present,
+                            scene.operator,
+                            scene.left,
+                            scene.right,
+                            nodes,
+                            kept,
+                        )
+                    ):
+                        channel = scene.leaf_material[kept[m]]
+                        if channel >= 0:
+                            factors[channel, e] -= 1.0
+                            factors[channel, e + 1] += 1.0
+                for channel in range(channels):
+                    used = False
+                    for e in range(number):
+                        if factors[channel, e] != 0.0:
+                            add(ends, order[e], factors[channel, e], start, alike, sums)
+                            used = True
+                    if used:
+                        to = out[channel, to_row + i, to_column + j : to_column + j + alike]
+                        put(sums, held.rays, i, j, alike, to)
+                j += alike
             first = last
