@@ -16,7 +16,7 @@ from phantom.tracing.pool import cut_bands, run_bands
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_BAND = 4096
+_BAND = 512
 _ROOM = 256
 FARTHEST_MM = 1e6
 """Origins farther out than this are refused: a coordinate there has no 1e-10 mm left."""
