@@ -9,11 +9,11 @@ import shlex
 import subprocess
 from pathlib import Path
 
-FILM = "--columns 600 --rows 750 --pitch-mm 0.36"
+FILM = "--columns 600 --rows 720"
 COMMANDS = (
-    f"phantom radiograph knee-1993 --view ap {FILM} -o docs/images/knee-ap.png",
-    f"phantom radiograph knee-1993 --view mediolateral {FILM} -o docs/images/knee-lateral.png",
-    "phantom radiograph fan --view ap --columns 600 --rows 600 -o docs/images/fan.png",
+    f"phantom radiograph knee --view ap {FILM} -o docs/images/readme-knee.png",
+    f"phantom radiograph hand --view pa {FILM} -o docs/images/readme-hand.png",
+    f"phantom radiograph chest --view pa {FILM} -o docs/images/readme-chest.png",
 )
 GALLERY = (
     "python docs/paper_pictures.py",

@@ -38,7 +38,7 @@ def draw(
         format = format_of_path(path)
         planned.check_format(format)
         tell_defaults(planned.chosen, given, None if output else path)
-        ready(quiet=as_json)
+        ready(quiet=as_json, light=True)
         with Bar("drawing") as bar:
             made = planned.render(progress=bar)
         saved = save(made, path, quantity_of(format), planned.request.tone, sidecar=sidecar)

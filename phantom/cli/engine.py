@@ -14,7 +14,7 @@ LOOKING_S = 0.5
 _BLAS = "scipy.linalg.cython_blas"
 
 
-def ready(*, quiet: bool = False, load: bool = False) -> None:
+def ready(*, quiet: bool = False, load: bool = False, light: bool = False) -> None:
     """Compile the kernels where that has not been done on this machine yet, and say so.
 
     Parameters
@@ -24,25 +24,27 @@ def ready(*, quiet: bool = False, load: bool = False) -> None:
     load
         Have kernels that were compiled before loaded too, as a service wants them; a command loads
         those that it uses.
+    light
+        Have those for visible light too.
     """
     _import_numba()
     from phantom.kernels.compiling import complete
     from phantom.tracing import warm
 
-    if complete():
+    if complete(light):
         if load:
-            warm()
+            warm(light)
         return
     if quiet:
-        warm()
+        warm(light)
         return
     say("compiling kernels, once")
-    with _progress():
-        warm()
+    with _progress(light):
+        warm(light)
 
 
 @contextmanager
-def _progress() -> Iterator[None]:
+def _progress(light: bool) -> Iterator[None]:
     """Show how many kernels are compiled, on a terminal."""
     from phantom.kernels.compiling import compiled_so_far
 
@@ -50,7 +52,7 @@ def _progress() -> Iterator[None]:
 
     def look(bar: Bar) -> None:
         while not done.wait(LOOKING_S):
-            bar(*compiled_so_far())
+            bar(*compiled_so_far(light))
 
     with Bar("compiling") as bar:
         watcher = threading.Thread(target=look, args=(bar,), daemon=True)

@@ -71,7 +71,7 @@ def make_pair(
     beside_it = _truth_path(planned, truth_output, path, format)
     check_place(path)
     tell_defaults({**planned.chosen, "layout": layout}, given, None if told_path else path)
-    ready(quiet=as_json)
+    ready(quiet=as_json, light=True)
     pair, truths = _traced(planned)
     files = encoded(planned, pair, format)
     if format is None:

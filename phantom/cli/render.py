@@ -73,7 +73,7 @@ def make(
         path = Path(output or f"{planned.phantom.document.name}-{side}-render.png")
         planned.check_format(format_of_path(path))
         tell_defaults(planned.chosen, given, None if output else path)
-        ready(quiet=as_json)
+        ready(quiet=as_json, light=True)
         with Bar("tracing") as bar:
             made = planned.render(progress=bar)
         saved = save(made, path, COLOR, planned.request.tone, sidecar=sidecar)

@@ -31,7 +31,7 @@ def serve(
         if settings.api_key is None and not is_loopback(host):
             settings = settings.model_copy(update={"api_key": secrets.token_urlsafe(32)})
             say(f"key for every call (Authorization: Bearer KEY): {settings.api_key}")
-        ready(load=True)
+        ready(load=True, light=True)
         application = import_module("api.app").create_app(settings)
         say(f"documentation at http://{_shown(host)}:{port}/docs")
         uvicorn.run(

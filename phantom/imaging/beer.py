@@ -1,8 +1,9 @@
-"""Beer's law over a spectrum: Σ_k w_k exp(−Σ_m μ_km L_m) for every pixel.
+"""Beer's law: exp(−Σ_m μ_m L_m), over a spectrum Σ_k w_k exp(−Σ_m μ_km L_m), for every pixel.
 
-Only pixels that have some material are summed; all others are Σ_k w_k. They are gathered into
-blocks of one size, the last one filled up with nothing, so that every pixel goes through the same
-operations in the same order: its value depends neither on its neighbours nor on threads.
+Over a spectrum only pixels that have some material are summed; all others are Σ_k w_k. They are
+gathered into blocks of one size, the last one filled up with nothing, so that every pixel goes
+through the same operations in the same order: its value depends neither on its neighbours nor on
+threads, nor on whether a picture is reckoned whole or in bands of rows.
 """
 
 from __future__ import annotations
@@ -22,6 +23,63 @@ BAND_PIXELS: Final = 2**17
 
 PRODUCT_LIMIT: Final = 2**18
 """Most multiplications of one block: larger products would start threads of their own."""
+
+
+def line_integral(lengths: FloatArray, attenuation_per_mm: FloatArray) -> FloatArray:
+    """Return Σ_m μ_m L_m of (M, rows, columns) path lengths, as (rows, columns)."""
+    return _by_rows(lengths, lambda band: _sum(band, attenuation_per_mm))
+
+
+def transmission(
+    lengths: FloatArray, attenuation_per_mm: FloatArray, weights: FloatArray
+) -> FloatArray:
+    """Return the share that is left behind (M, rows, columns) path lengths, as (rows, columns).
+
+    Parameters
+    ----------
+    lengths
+        Path lengths in mm.
+    attenuation_per_mm
+        (M,) for one energy, (K, M) for a spectrum.
+    weights
+        (K,) of a spectrum's energies.
+    """
+    return _by_rows(lengths, lambda band: band_transmission(band, attenuation_per_mm, weights))
+
+
+def band_transmission(
+    lengths: FloatArray, attenuation_per_mm: FloatArray, weights: FloatArray
+) -> FloatArray:
+    """Do what :func:`transmission` does, on this thread alone: for a band of rows."""
+    if attenuation_per_mm.ndim == 1:
+        left = _sum(lengths, attenuation_per_mm)
+        return np.exp(np.negative(left, out=left), out=left)
+    left = np.empty(lengths.shape[1:])
+    flat = np.moveaxis(lengths, 0, -1).reshape(-1, len(lengths))
+    _Law(attenuation_per_mm, weights[np.newaxis, :]).apply(flat, left.reshape(1, -1))
+    # The weights add up to 1 but for rounding; what nothing is in the way of is 1 exactly.
+    left /= weights[np.newaxis, :].sum(axis=1)
+    return np.minimum(left, 1.0, out=left)
+
+
+def _sum(lengths: FloatArray, attenuation_per_mm: FloatArray) -> FloatArray:
+    total = np.zeros(lengths.shape[1:])
+    product = np.empty_like(total)
+    for length, attenuation in zip(lengths, attenuation_per_mm, strict=True):
+        total += np.multiply(length, attenuation, out=product)
+    return total
+
+
+def _by_rows(lengths: FloatArray, one: Callable[[FloatArray], FloatArray]) -> FloatArray:
+    """Apply ``one`` to bands of rows, on all threads."""
+    _, rows, columns = lengths.shape
+    found = np.empty((rows, columns))
+
+    def work(start: int, end: int) -> None:
+        found[start:end] = one(lengths[:, start:end])
+
+    run_bands(work, cut_bands(rows, max(1, BAND_PIXELS // max(columns, 1))))
+    return found
 
 
 def through_spectrum(
@@ -56,29 +114,40 @@ def through_spectrum(
         ``cancelled()`` turned true.
     """
     rows, columns, materials = path_lengths.shape
-    attenuation, weights = _merged(attenuation_per_mm, weights)
     flat = path_lengths.reshape(-1, materials)
+    law = _Law(attenuation_per_mm, weights)
     found = np.empty((len(weights), rows * columns))
-    open_field = weights.sum(axis=1)
-    exponents = np.ascontiguousarray(-attenuation.T)
-    columns_of_weights = np.ascontiguousarray(weights.T)
-    block = _block_pixels(*attenuation.shape)
 
     def work(start: int, end: int) -> None:
-        (occupied,) = np.nonzero(flat[start:end].any(axis=1))
-        found[:, start:end] = open_field[:, np.newaxis]
-        lengths = np.zeros((block, materials))
-        for first in range(0, len(occupied), block):
-            chosen = start + occupied[first : first + block]
-            lengths[: len(chosen)] = flat[chosen]
-            lengths[len(chosen) :] = 0.0
-            left = lengths @ exponents
-            np.exp(left, out=left)
-            found[:, chosen] = (left @ columns_of_weights)[: len(chosen)].T
+        law.apply(flat[start:end], found[:, start:end])
 
-    bands = cut_bands(rows * columns, max(BAND_PIXELS, block))
+    bands = cut_bands(rows * columns, max(BAND_PIXELS, law.block))
     run_bands(work, bands, workers=workers, cancelled=cancelled)
     return found.reshape(len(weights), rows, columns)
+
+
+class _Law:
+    """The sums over a spectrum, block by block."""
+
+    def __init__(self, attenuation_per_mm: FloatArray, weights: FloatArray) -> None:
+        attenuation, weights = _merged(attenuation_per_mm, weights)
+        self._open_field = weights.sum(axis=1)
+        self._exponents = np.ascontiguousarray(-attenuation.T)
+        self._weights = np.ascontiguousarray(weights.T)
+        self.block = _block_pixels(*attenuation.shape)
+
+    def apply(self, flat: FloatArray, found: FloatArray) -> None:
+        """Write (J, pixels) from (pixels, M)."""
+        (occupied,) = np.nonzero(flat.any(axis=1))
+        found[:] = self._open_field[:, np.newaxis]
+        lengths = np.zeros((self.block, flat.shape[1]))
+        for first in range(0, len(occupied), self.block):
+            chosen = occupied[first : first + self.block]
+            lengths[: len(chosen)] = flat[chosen]
+            lengths[len(chosen) :] = 0.0
+            left = lengths @ self._exponents
+            np.exp(left, out=left)
+            found[:, chosen] = (left @ self._weights)[: len(chosen)].T
 
 
 def _merged(attenuation: FloatArray, weights: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -9,10 +9,18 @@ import numpy as np
 
 from phantom.geometry.vectors import box_corners
 from phantom.imaging.beam import Beam, attenuations_per_mm, depends_on_energy
+from phantom.imaging.beer import band_transmission
 from phantom.imaging.camera import projection
-from phantom.imaging.detection import Acquisition, Exposed, NoiseKey, air_gap_mm, expose
+from phantom.imaging.detection import (
+    Acquisition,
+    DetectorModel,
+    Exposed,
+    NoiseKey,
+    air_gap_mm,
+    expose,
+)
 from phantom.imaging.refusals import check_exposure
-from phantom.imaging.result import Radiograph, sealed
+from phantom.imaging.result import Radiograph, sealed, signal_weights
 from phantom.imaging.spectrum import Spectrum
 from phantom.imaging.traces import Traces
 from phantom.imaging.truncation import truncated
@@ -32,6 +40,7 @@ def radiograph(
     workers: int | None = None,
     cancelled: Callable[[], bool] | None = None,
     progress: Callable[[int, int], None] | None = None,
+    keep_path_lengths: bool = True,
 ) -> Radiograph:
     """X-ray a phantom.
 
@@ -50,6 +59,10 @@ def radiograph(
         Asked now and then; when it turns true the trace stops.
     progress
         Told now and then how many rows of rays are done, and of how many.
+    keep_path_lengths
+        False for a large picture of which only the signal is wanted: path lengths are then held a
+        few rows at a time, and traced once more where they are asked for after all. No number of
+        the result depends on it.
 
     Raises
     ------
@@ -65,16 +78,29 @@ def radiograph(
     energies = beam.energy_kev if beam.energy_kev is not None else spectrum.energies_kev
     attenuation = attenuations_per_mm(materials, energies)
     rays = Traces(phantom, view, acquisition, workers, cancelled, progress)
-    path_lengths = rays.centres()
     key = noise if noise is not None else NoiseKey()
-    exposed = None
-    if acquisition is not None:
+    path_lengths, exposed, left = None, None, None
+    if acquisition is None:
+        left = np.empty((view.detector.rows, view.detector.columns))
+        weights = signal_weights(spectrum, DetectorModel())
+
+        def attenuate(first: int, lengths: FloatArray) -> None:
+            band = left[first : first + lengths.shape[1]]
+            band[:] = band_transmission(lengths, attenuation, weights)
+
+        if keep_path_lengths:
+            path_lengths = rays.centres(attenuate)
+        else:
+            rays.centres_by_bands(attenuate)
+    else:
+        path_lengths = rays.centres()
         exposed = _exposed(rays, path_lengths, attenuation, spectrum, acquisition, key)
     return Radiograph(
         phantom=phantom,
         view=view,
         beam=beam,
-        path_lengths=sealed(path_lengths),
+        kept=sealed(path_lengths) if path_lengths is not None and keep_path_lengths else None,
+        left=None if left is None else sealed(left),
         spectrum=spectrum,
         attenuation_per_mm=sealed(attenuation),
         acquisition=acquisition,

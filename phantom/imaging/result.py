@@ -25,13 +25,14 @@ import numpy as np
 
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging.beam import Beam
-from phantom.imaging.beer import through_spectrum
+from phantom.imaging.beer import line_integral, transmission
 from phantom.imaging.camera import Projection, projection
 from phantom.imaging.detection import Acquisition, DetectorModel, Exposed, NoiseKey
 from phantom.imaging.detection.scintillator import response as photon_response
 from phantom.imaging.presentation import GreyArray, Presentation, present
 from phantom.imaging.presentation_stage import presentation_stage
 from phantom.imaging.spectrum import Spectrum
+from phantom.imaging.traces import Traces
 from phantom.imaging.truth import KINDS, Truth
 from phantom.imaging.tube import spectrum_stages
 from phantom.imaging.view import FloatArray, View
@@ -63,9 +64,10 @@ class Radiograph:
     ----------
     phantom, view, beam
         What was X-rayed, from where, with what.
-    path_lengths
-        (rows, columns, M) mm of each material between source and pixel, in the order of
-        ``phantom.material_names``; 0 where a material is missed.
+    kept
+        The path lengths, where they were kept.
+    left
+        The transmission, where it was reckoned with the trace.
     spectrum
         The K photon energies that the image is summed over; one for a beam of one energy.
     attenuation_per_mm
@@ -85,7 +87,8 @@ class Radiograph:
     phantom: Phantom
     view: View
     beam: Beam
-    path_lengths: FloatArray
+    kept: FloatArray | None
+    left: FloatArray | None
     spectrum: Spectrum
     attenuation_per_mm: FloatArray
     acquisition: Acquisition | None
@@ -101,13 +104,22 @@ class Radiograph:
         Each photon counts with what the detector makes of it; with its energy where there is no
         acquisition.
         """
-        per_photon = photon_response(self._model, self.spectrum.energies_kev).weights[:, 1]
-        counted = self.spectrum.shares * per_photon
-        return counted / float(counted.sum())
+        return signal_weights(self.spectrum, self._model)
 
     @property
     def _model(self) -> DetectorModel:
         return DetectorModel() if self.acquisition is None else self.acquisition.detector
+
+    @cached_property
+    def path_lengths(self) -> FloatArray:
+        """(rows, columns, M) mm of each material between source and pixel.
+
+        They are in the order of ``phantom.material_names``, and 0 where a material is missed. Where
+        they were not kept they are traced once more.
+        """
+        if self.kept is not None:
+            return self.kept
+        return sealed(Traces(self.phantom, self.view, None).centres())
 
     @cached_property
     def line_integral(self) -> FloatArray:
@@ -118,20 +130,19 @@ class Radiograph:
         if self.attenuation_per_mm.ndim == 2:
             with np.errstate(divide="ignore"):  # nothing is left behind too much: infinite
                 return sealed(np.maximum(-np.log(self.transmission), 0.0))
-        total = np.zeros(self.path_lengths.shape[:2])
-        for index, attenuation in enumerate(self.attenuation_per_mm):
-            total += attenuation * self.path_lengths[..., index]
-        return sealed(total)
+        return sealed(line_integral(self._lengths, self.attenuation_per_mm))
 
     @cached_property
     def transmission(self) -> FloatArray:
         """(rows, columns) share of the open field's signal that is left, by Beer's law."""
-        if self.attenuation_per_mm.ndim == 1:
-            return sealed(np.exp(-self.line_integral))
-        weights = self.weights[np.newaxis, :]
-        left = through_spectrum(self.path_lengths, self.attenuation_per_mm, weights)[0]
-        # The weights add up to 1 but for rounding; what nothing is in the way of is 1 exactly.
-        return sealed(np.minimum(left / weights.sum(axis=1), 1.0))
+        if self.left is not None:
+            return self.left
+        return sealed(transmission(self._lengths, self.attenuation_per_mm, self.weights))
+
+    @property
+    def _lengths(self) -> FloatArray:
+        """(M, rows, columns), as they lie in memory."""
+        return np.moveaxis(self.path_lengths, -1, 0)
 
     @property
     def signal(self) -> FloatArray:
@@ -283,6 +294,13 @@ def _alone(presentation: Presentation | None) -> Presentation | None:
     if presentation is not None:
         presentation.check_alone()
     return presentation
+
+
+def signal_weights(spectrum: Spectrum, model: DetectorModel) -> FloatArray:
+    """Return (K,) share of each photon energy in the signal of the open field."""
+    counted = spectrum.shares * photon_response(model, spectrum.energies_kev).weights[:, 1]
+    weights: FloatArray = counted / float(counted.sum())
+    return weights
 
 
 def _beam_kind(view: View) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from phantom.imaging.view import FloatArray, View
 
 if TYPE_CHECKING:
     from phantom.scene import Phantom
+
+Each = Callable[[int, FloatArray], None]
 
 
 @dataclass
@@ -64,10 +66,22 @@ class Traces:
             and len(source_points(self.view, asked.focal_spot)) == 1
         )
 
-    def centres(self) -> FloatArray:
-        """Return (rows, columns, M) mm from the view's source to the centre of every pixel."""
+    def centres(self, each: Each | None = None) -> FloatArray:
+        """Return (rows, columns, M) mm from the view's source to the centre of every pixel.
+
+        ``each`` is given every band of rows, (M, rows, columns), as soon as it is traced.
+        """
         detector = self.view.detector
-        return self._traced(lattice(detector, Window.whole(detector)), self._source)
+        return self._traced(lattice(detector, Window.whole(detector)), self._source, each)
+
+    def centres_by_bands(self, each: Each) -> None:
+        """Trace what :meth:`centres` does, and keep nothing but what ``each`` makes of it."""
+        from phantom.tracing import raster_bands
+
+        detector = self.view.detector
+        rays = lattice(detector, Window.whole(detector))
+        raster_bands(self.phantom, each, **self._asked(rays, self._source))
+        self._done += rays.rows
 
     def samples(self, centres: FloatArray) -> Iterator[tuple[float, FloatArray]]:
         """Yield the weight and the path lengths of each point of the focal spot.
@@ -93,9 +107,17 @@ class Traces:
     def _source(self) -> FloatArray | None:
         return None if self.view.source is None else np.asarray(self.view.source, dtype=np.float64)
 
-    def _traced(self, rays: Lattice, source: FloatArray | None) -> FloatArray:
+    def _traced(
+        self, rays: Lattice, source: FloatArray | None, each: Each | None = None
+    ) -> FloatArray:
         from phantom.tracing import raster
 
+        found = raster(self.phantom, each=each, **self._asked(rays, source))
+        self._done += rays.rows
+        return found
+
+    def _asked(self, rays: Lattice, source: FloatArray | None) -> dict[str, Any]:
+        """Return what a raster is told of one image of rays."""
         told, before = self.progress, self._done
 
         def counted(done: int, _: int) -> None:
@@ -103,18 +125,15 @@ class Traces:
             told(before + done, self._total)
 
         along = self.view.direction
-        found = raster(
-            self.phantom,
-            source=source,
-            direction=None if along is None else np.asarray(along, dtype=np.float64),
-            first_pixel=rays.first_pixel,
-            column_step=rays.column_step,
-            row_step=rays.row_step,
-            columns=rays.columns,
-            rows=rays.rows,
-            workers=self.workers,
-            cancelled=self.cancelled,
-            progress=None if told is None else counted,
-        )
-        self._done += rays.rows
-        return found
+        return {
+            "source": source,
+            "direction": None if along is None else np.asarray(along, dtype=np.float64),
+            "first_pixel": rays.first_pixel,
+            "column_step": rays.column_step,
+            "row_step": rays.row_step,
+            "columns": rays.columns,
+            "rows": rays.rows,
+            "workers": self.workers,
+            "cancelled": self.cancelled,
+            "progress": None if told is None else counted,
+        }

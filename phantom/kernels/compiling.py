@@ -21,8 +21,12 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
+import numpy as np
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
+
+
+_INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 @cache
@@ -78,9 +82,14 @@ def kernel(function: Kernel) -> Kernel:
     return _compiled(function)
 
 
+def inner(function: Kernel) -> Kernel:
+    """Compile a function that only kernels call: it cannot be called from Python."""
+    return _compiled(function, **_INNER)
+
+
 def lane(function: Kernel) -> Kernel:
     """Compile a function that is laid into the loops that call it, so that they can be packed."""
-    return _compiled(function, fastmath={"contract"}, forceinline=True, no_cpython_wrapper=True)
+    return _compiled(function, fastmath={"contract"}, forceinline=True, **_INNER)
 
 
 def lane_loop(function: Kernel) -> Kernel:
@@ -88,7 +97,16 @@ def lane_loop(function: Kernel) -> Kernel:
 
     A product and a sum may be rounded once instead of twice; nothing else is loosened.
     """
-    return _compiled(function, fastmath={"contract"})
+    return _compiled(function, fastmath={"contract"}, **_INNER)
+
+
+def whole(value: int) -> int:
+    """Return a whole number whose value is not part of its type.
+
+    Numba takes a literal for a type of its own and would compile what is called with a variable
+    that begins as one a second time.
+    """
+    return np.int64(value)  # type: ignore[return-value]
 
 
 def _compiled(function: Kernel, **options: Any) -> Kernel:
@@ -103,29 +121,41 @@ def _compiled(function: Kernel, **options: Any) -> Kernel:
     return cast(Kernel, compiled)
 
 
-def _marker() -> Path:
-    """Return the file that says that every kernel is compiled for this processor and numba."""
+whole = lane(whole)
+
+
+LIGHT = ("first_hit", "normals", "phong", "zbuffer")
+"""Modules whose kernels only pictures in visible light need."""
+
+
+def _marker(light: bool) -> Path:
+    """Return the file that says that the kernels are compiled for this processor and numba."""
     codegen: Any = import_module("numba.core.codegen")
     target = (platform.machine(), codegen.get_host_cpu_features())
     versions = (numba.__version__, platform.python_version())
     digest = hashlib.sha256(repr((target, versions)).encode()).hexdigest()
-    return Path(cache_folder()) / f"complete-{digest[:16]}"
+    return Path(cache_folder()) / f"{'complete' if light else 'rays'}-{digest[:16]}"
 
 
-def complete() -> bool:
-    """Tell whether every kernel was compiled before, so that it only has to be loaded."""
-    return _marker().exists()
+def complete(light: bool = True) -> bool:
+    """Tell whether every kernel was compiled before, so that it only has to be loaded.
+
+    Without ``light`` those for visible light do not count.
+    """
+    return _marker(True).exists() or (not light and _marker(False).exists())
 
 
-def mark_complete() -> None:
-    """Note that every kernel is compiled."""
-    _marker().touch()
+def mark_complete(light: bool = True) -> None:
+    """Note that every kernel is compiled, or all but those for visible light."""
+    _marker(light).touch()
 
 
-def compiled_so_far() -> tuple[int, int]:
-    """Return how many kernels lie compiled on disk, and how many there are in all."""
+def compiled_so_far(light: bool = True) -> tuple[int, int]:
+    """Return how many kernels lie compiled on disk, and how many of them there are to be."""
     kernels = 0
     for module in pkgutil.iter_modules([str(Path(__file__).parent)]):
+        if not light and module.name in LIGHT:
+            continue
         found = import_module(f"{__package__}.{module.name}")
         kernels += sum(
             hasattr(member, "py_func") and member.__module__ == found.__name__

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.uint8]
 
 
-@kernel
+@inner
 def sort_events(where: Floats, order: Ints, count: int) -> None:
     """Sort ``order[:count]`` by ``where`` (Shell's method: few events, mostly in order).
 
@@ -37,7 +37,7 @@ def sort_events(where: Floats, order: Ints, count: int) -> None:
         gap //= 3
 
 
-@kernel
+@inner
 def toggle(
     leaf: int, present: Flags, parent: Ints, operator: Ints, left: Ints, right: Ints
 ) -> None:
@@ -59,7 +59,7 @@ def toggle(
         node = parent[node]
 
 
-@kernel
+@inner
 def surviving(
     root: int,
     leaves: int,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import CELLS, Tables
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner
 from phantom.kernels.section import changing_star, circle, star
 
 Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ _EDGE = 1e-9
 """Cells are taken this much wider, in cells: a point on an edge counts for both sides."""
 
 
-@kernel
+@inner
 def contract(
     polynomials: Floats,
     k: int,
@@ -51,7 +51,7 @@ def contract(
             work[2 * j + 1, i] = a * dx + b * dy + c * dz
 
 
-@kernel
+@inner
 def solve_tau(work: Floats, w: float, tau: float) -> float:
     """Find the one tau in [-1, 1] with F = 0; F falls from one end to the other."""
     low, high = -1.0, 1.0
@@ -77,7 +77,7 @@ def solve_tau(work: Floats, w: float, tau: float) -> float:
     return tau
 
 
-@kernel
+@inner
 def evaluate(
     work: Floats,
     w: float,
@@ -116,7 +116,7 @@ def evaluate(
     return h, hx * xd + hy * yd + rate * turn, tau
 
 
-@kernel
+@inner
 def stays_positive(
     g0: float,
     s0: float,
@@ -153,7 +153,7 @@ def stays_positive(
     return (1.0 - t) * g0 + t * g1 - bow * t * (1.0 - t) > 0.0
 
 
-@kernel
+@inner
 def reach(g: float, slope: float, low: float) -> float:
     """How far ``g + slope s + low s^2 / 2`` stays positive, from g >= 0 at s = 0."""
     if slope >= 0.0:
@@ -167,7 +167,7 @@ def reach(g: float, slope: float, low: float) -> float:
     return 2.0 * g / (math.sqrt(square) - slope)
 
 
-@kernel
+@inner
 def crosses_once(
     g0: float, s0: float, s1: float, span: float, low: float, high: float, up: float, down: float
 ) -> bool:
@@ -184,7 +184,7 @@ def crosses_once(
     return min(a + high * s, b + low * s) < 0.0
 
 
-@kernel
+@inner
 def polish(
     work: Floats,
     a: float,
@@ -227,7 +227,7 @@ def polish(
     return w
 
 
-@kernel
+@inner
 def cells_between(p: float, d: float, start: float, end: float) -> tuple[int, int]:
     """Return the first and the last cell that p + w d runs through for w in [start, end]."""
     a, b = p + start * d, p + end * d
@@ -236,7 +236,7 @@ def cells_between(p: float, d: float, start: float, end: float) -> tuple[int, in
     return first, last
 
 
-@kernel
+@inner
 def within_row(
     i: int, first: int, last: int, p: float, d: float, start: float, end: float
 ) -> tuple[float, float]:
@@ -255,7 +255,7 @@ def within_row(
     return a, b
 
 
-@kernel
+@inner
 def curvature(
     hessians: Floats, kinks: Floats, k: int, lane: Floats, start: float, end: float
 ) -> tuple[float, float, float, float]:
@@ -285,7 +285,7 @@ def curvature(
     return low, high, up, down
 
 
-@kernel
+@inner
 def chords(
     work: Floats,
     stack: Floats,

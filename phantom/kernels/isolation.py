@@ -10,15 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.compiling import inner, lane_loop, whole
+from phantom.kernels.glances import glance
 from phantom.kernels.lanes import (
     AT_I,
     AT_J,
     AT_T,
     AT_W,
+    CHUNK,
     GA,
     GB,
     HELD,
+    LANES,
     LOW,
     RA,
     RB,
@@ -102,7 +105,7 @@ def halve(S: Floats, n: int) -> None:
         S[SB + n + m], S[TB + n + m] = S[YSB + m], S[YTB + m]
 
 
-@kernel
+@inner
 def isolate(
     n: int,
     i0: int,
@@ -133,71 +136,85 @@ def isolate(
         held.signs,
     )
     table = scene.segment_table[k]
-    ask(S, n, A, False)
-    evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
-    answer(S, n, GA, SA, TA)
-    ask(S, n, B, True)
-    evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
-    answer(S, n, GB, SB, TB)
-    if filled + 2 * n > len(pixels):
-        return -1
-    for m in range(n):
-        if S[GA + m] < 0.0:
-            pixels[filled] = int(S[I + m]) * columns + int(S[J + m])
-            where[filled], signs[filled] = S[A + m], 1.0
-            filled += 1
-        if S[GB + m] < 0.0:
-            pixels[filled] = int(S[I + m]) * columns + int(S[J + m])
-            where[filled], signs[filled] = S[B + m], -1.0
-            filled += 1
     cornered = scene.cornered[k] != 0
-    cells = held.cells
     bounded = cornered
-    roots = 0
-    while n > 0:
-        if roots + n > HELD:
-            if filled + roots > len(pixels):
-                return -1
-            filled = polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)
-            roots = 0
-        if not cornered:
-            judge(S, n, slabs, scene.hulls, k)
-        if not bounded and in_doubt(S, n):
-            bound_cells(scene.hessians, k, slabs, i0, i1, j0, j1, cells)
-            bounded = True
-        look_at_all(
-            S,
-            n,
-            slabs,
-            cornered,
-            scene.hessians,
-            scene.kinks,
-            k,
-            held.beam,
-            cells,
-            shortest,
-        )
-        halves = 0
-        for m in range(n):
-            code = S[LOW + m]
-            if code == ROOT:
-                S[RI + roots], S[RJ + roots], S[RT + roots] = S[I + m], S[J + m], S[TA + m]
-                S[RA + roots], S[RGA + roots], S[RS + roots] = S[A + m], S[GA + m], S[SA + m]
-                S[RB + roots], S[RW + roots], S[RP + roots] = S[B + m], S[GB + m], S[SB + m]
-                roots += 1
-            elif code == SPLIT:
-                S[YI + halves], S[YJ + halves] = S[I + m], S[J + m]
-                S[YA + halves], S[YGA + halves] = S[A + m], S[GA + m]
-                S[YSA + halves], S[YTA + halves] = S[SA + m], S[TA + m]
-                S[YB + halves], S[YGB + halves] = S[B + m], S[GB + m]
-                S[YSB + halves], S[YTB + halves] = S[SB + m], S[TB + m]
-                halves += 1
-        if 2 * halves > HELD:
+    roots = whole(0)
+    if table < 0:
+        if filled + 2 * n > len(pixels):
             return -1
-        ask_between(S, halves)
-        evaluate_lanes(S, halves, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
-        halve(S, halves)
-        n = 2 * halves
+        n, filled = glance(n, ox, oy, oz, scene, k, enough, held, filled, columns)
+    base = n
+    while base > 0:
+        # The ends of the last intervals that are left, then those, split until none is in doubt.
+        n = min(base, CHUNK)
+        base -= n
+        T = S[base:]
+        ask(T, n, A, False)
+        evaluate_lanes(T, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+        answer(T, n, GA, SA, TA)
+        ask(T, n, B, True)
+        evaluate_lanes(T, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+        answer(T, n, GB, SB, TB)
+        if filled + 2 * n > len(pixels):
+            return -1
+        for m in range(n):
+            if T[GA + m] < 0.0:
+                pixels[filled] = int(T[I + m]) * columns + int(T[J + m])
+                where[filled], signs[filled] = T[A + m], 1.0
+                filled += 1
+            if T[GB + m] < 0.0:
+                pixels[filled] = int(T[I + m]) * columns + int(T[J + m])
+                where[filled], signs[filled] = T[B + m], -1.0
+                filled += 1
+        top = base + n
+        while top > base:
+            # The fuller the pile, the fewer are split at once: so it never runs over.
+            n = min(min(top - base, CHUNK), max(1, (HELD - top) // 8))
+            top -= n
+            T = S[top:]
+            if roots + n > LANES:
+                if filled + roots > len(pixels):
+                    return -1
+                filled = polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)
+                roots = whole(0)
+            if not cornered:
+                judge(T, n, slabs, scene.hulls, k)
+            if not bounded and in_doubt(T, n):
+                bound_cells(scene.hessians, k, slabs, i0, i1, j0, j1, held.cells)
+                bounded = True
+            look_at_all(
+                T,
+                n,
+                slabs,
+                cornered,
+                scene.hessians,
+                scene.kinks,
+                k,
+                held.beam,
+                held.cells,
+                shortest,
+            )
+            halves = whole(0)
+            for m in range(n):
+                code = T[LOW + m]
+                if code == ROOT:
+                    S[RI + roots], S[RJ + roots], S[RT + roots] = T[I + m], T[J + m], T[TA + m]
+                    S[RA + roots], S[RGA + roots], S[RS + roots] = T[A + m], T[GA + m], T[SA + m]
+                    S[RB + roots], S[RW + roots], S[RP + roots] = T[B + m], T[GB + m], T[SB + m]
+                    roots += 1
+                elif code == SPLIT:
+                    T[YI + halves], T[YJ + halves] = T[I + m], T[J + m]
+                    T[YA + halves], T[YGA + halves] = T[A + m], T[GA + m]
+                    T[YSA + halves], T[YTA + halves] = T[SA + m], T[TA + m]
+                    T[YB + halves], T[YGB + halves] = T[B + m], T[GB + m]
+                    T[YSB + halves], T[YTB + halves] = T[SB + m], T[TB + m]
+                    halves += 1
+            if top + 2 * halves > HELD:
+                return -1
+            ask_between(T, halves)
+            evaluate_lanes(T, halves, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+            halve(T, halves)
+            top += 2 * halves
     if filled + roots > len(pixels):
         return -1
     return polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)

@@ -73,6 +73,20 @@ def along(p: Plane, x: float, y: float, z: float) -> Row:
 
 
 @lane
+def mixed(c: Row, d: Row, w: float) -> Row:
+    """Return c + w d."""
+    return (
+        c[0] + w * d[0],
+        c[1] + w * d[1],
+        c[2] + w * d[2],
+        c[3] + w * d[3],
+        c[4] + w * d[4],
+        c[5] + w * d[5],
+        c[6] + w * d[6],
+    )
+
+
+@lane
 def value(c: Row, t: float) -> float:
     """Return the polynomial at t."""
     return (((((c[6] * t + c[5]) * t + c[4]) * t + c[3]) * t + c[2]) * t + c[1]) * t + c[0]
@@ -94,6 +108,29 @@ def value_and_slope(c: Row, t: float) -> tuple[float, float]:
     v = v * t + c[1]
     s = s * t + v
     return v * t + c[0], s
+
+
+@lane
+def two_slopes(c: Row, t: float) -> tuple[float, float, float]:
+    """Return the polynomial and its first two derivatives at t."""
+    v = c[6]
+    s = v
+    v = v * t + c[5]
+    h = s
+    s = s * t + v
+    v = v * t + c[4]
+    h = h * t + s
+    s = s * t + v
+    v = v * t + c[3]
+    h = h * t + s
+    s = s * t + v
+    v = v * t + c[2]
+    h = h * t + s
+    s = s * t + v
+    v = v * t + c[1]
+    h = h * t + s
+    s = s * t + v
+    return v * t + c[0], s, 2.0 * h
 
 
 @lane

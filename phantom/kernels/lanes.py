@@ -21,8 +21,11 @@ TILE_ROWS, TILE_COLUMNS = 16, 128
 
 LANES = TILE_ROWS * TILE_COLUMNS
 
-HELD = 2 * LANES
-"""Intervals that can be looked at together: every pixel of a tile, split once."""
+HELD = 4 * LANES
+"""Intervals that may wait."""
+
+CHUNK = 512
+"""Intervals looked at together: few enough for their numbers to stay in the nearest cache."""
 
 STRIDE = HELD + 72
 """Not a power of two: rows at such a distance would share the same lines of the cache."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import CELLS, Scene
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner, whole
 from phantom.kernels.cylinder import chords, contract
 from phantom.kernels.quadric import half_line, roots
 
@@ -20,7 +20,7 @@ JOIN_MM = 1e-10
 """Intervals of one leaf nearer than this are one: far below what any surface is right to."""
 
 
-@kernel
+@inner
 def through_box(
     box: Floats,
     leaf: int,
@@ -48,7 +48,7 @@ def through_box(
     return low, high
 
 
-@kernel
+@inner
 def append(
     leaf: int,
     entry: float,
@@ -74,7 +74,7 @@ def append(
     return count + 1
 
 
-@kernel
+@inner
 def quadric_leaf(
     scene: Scene,
     leaf: int,
@@ -114,7 +114,7 @@ def quadric_leaf(
     return append(leaf, low + shift, high + shift, count, entries, exits, owners)
 
 
-@kernel
+@inner
 def cylinder_part(
     scene: Scene,
     leaf: int,
@@ -221,7 +221,7 @@ def cylinder_part(
     return count
 
 
-@kernel
+@inner
 def cylinder_leaf(
     scene: Scene,
     leaf: int,
@@ -282,7 +282,7 @@ def cylinder_leaf(
     return count
 
 
-@kernel
+@inner
 def unite(start: int, count: int, entries: Floats, exits: Floats) -> int:
     """Sort the intervals from ``start`` on and join those that overlap; return the new count.
 
@@ -305,7 +305,7 @@ def unite(start: int, count: int, entries: Floats, exits: Floats) -> int:
     return min(kept + 1, count)
 
 
-@kernel
+@inner
 def leaf_intervals(
     scene: Scene,
     px: float,
@@ -329,7 +329,7 @@ def leaf_intervals(
 
     A negative answer means there was no room: the caller brings more.
     """
-    count = 0
+    count = whole(0)
     for leaf in range(len(scene.leaf_radius)):
         low, high = through_box(scene.leaf_box, leaf, px, py, pz, dx, dy, dz, 0.0, end)
         if not low < high:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner, kernel
 from phantom.kernels.csg import surviving, toggle
 from phantom.kernels.cylinder import contract, evaluate
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@kernel
+@inner
 def in_segment(scene: Scene, k: int, knot: int, x: float, y: float, z: float, work: Floats) -> bool:
     """Say whether a point, about its leaf's centre, lies in segment k of a cylinder."""
     n = scene.knots
@@ -33,7 +33,7 @@ def in_segment(scene: Scene, k: int, knot: int, x: float, y: float, z: float, wo
     return g < 0.0
 
 
-@kernel
+@inner
 def in_leaf(scene: Scene, leaf: int, x: float, y: float, z: float, work: Floats) -> bool:
     """Say whether a point lies in a leaf."""
     if scene.leaf_box[leaf, 0, 0] > x or scene.leaf_box[leaf, 1, 0] < x:

@@ -7,12 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner
 
 Floats = NDArray[np.float64]
 
 
-@kernel
+@inner
 def half_line(f: float, slope: float, low: float, high: float) -> tuple[float, float]:
     """Return the part of [low, high] where ``f + w slope <= 0``; an empty one has low > high."""
     if slope > 0:
@@ -24,7 +24,7 @@ def half_line(f: float, slope: float, low: float, high: float) -> tuple[float, f
     return low, high
 
 
-@kernel
+@inner
 def roots(
     form: Floats, x: float, y: float, z: float, dx: float, dy: float, dz: float, reach: float
 ) -> tuple[int, float, float]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner, kernel, whole
 from phantom.kernels.csg import sort_events, surviving, toggle
 from phantom.kernels.cylinder import ROW, STACK
 from phantom.kernels.leaves import leaf_intervals
@@ -18,7 +18,7 @@ Ints = NDArray[np.int64]
 Flags = NDArray[np.uint8]
 
 
-@kernel
+@inner
 def lengths_of_ray(
     scene: Scene,
     count: int,
@@ -57,7 +57,7 @@ def lengths_of_ray(
         )
 
 
-@kernel
+@inner
 def pieces_of_ray(
     scene: Scene,
     ray: int,
@@ -264,7 +264,7 @@ def intervals(
     nodes = np.empty(len(scene.parent) + 1, dtype=np.int64)
     kept = np.empty(len(scene.leaf_radius) + 1, dtype=np.int64)
     rows = np.full(len(scene.leaf_radius), -1, dtype=np.int64)
-    filled = 0
+    filled = whole(0)
     for i in range(len(origins)):
         count = leaf_intervals(
             scene,

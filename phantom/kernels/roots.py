@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.lanes import (
     AT_I,
     AT_J,
@@ -115,7 +115,7 @@ def newton(S: Floats, n: int) -> None:
         S[RT + m] = S[TAU + m]
 
 
-@kernel
+@inner
 def polish_lanes(
     n: int,
     ox: float,
@@ -141,7 +141,7 @@ def polish_lanes(
             first_step(S, n)
             continue
         newton(S, n)
-        left = 0
+        left = whole(0)
         for m in range(n):
             if S[RE + m] < enough or S[RB + m] - S[RA + m] < 1e-15 or step == _HALVINGS - 1:
                 pixels[filled] = int(S[RI + m]) * columns + int(S[RJ + m])

@@ -16,7 +16,7 @@ Ints = NDArray[np.int64]
 MOST = 62
 """Slots that pixels looked at together may meet: the bits of a mask."""
 
-_RECORDS = 64 * LANES
+_RECORDS = 128 * LANES
 
 
 class Scratch(NamedTuple):
@@ -32,6 +32,8 @@ class Scratch(NamedTuple):
     pixels: Ints  # (records,) where rays enter or leave a leaf
     where: Floats  # (records,) part of the way from source to pixel
     signs: Floats  # (records,) 1 in, -1 out
+    waiting: Floats  # (2, LANES) where a record is held back
+    senses: Floats  # (2, LANES) its sign, 0 for none
     first: Floats  # (LANES,)
     last: Floats  # (LANES,)
     total: Floats  # (LANES,)
@@ -69,6 +71,8 @@ def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
         pixels=np.empty(_RECORDS, dtype=ints),
         where=np.empty(_RECORDS),
         signs=np.empty(_RECORDS),
+        waiting=np.empty((2, LANES)),
+        senses=np.zeros((2, LANES)),
         first=np.empty(LANES),
         last=np.empty(LANES),
         total=np.empty(LANES),

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from phantom.compiled.layout import Tables
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner
 
 
-@kernel
+@inner
 def circle(x: float, y: float) -> tuple[float, float, float]:
     """Return h, dh/dx and dh/dy of the unit circle."""
     return x * x + y * y - 1.0, 2.0 * x, 2.0 * y
 
 
-@kernel
+@inner
 def chart_of(x: float, y: float) -> tuple[int, float, float]:
     """Return the chart of a point and its major and minor coordinates there."""
     if abs(x) >= abs(y):
@@ -20,7 +20,7 @@ def chart_of(x: float, y: float) -> tuple[int, float, float]:
     return (1, y, -x) if y >= 0 else (3, -y, x)
 
 
-@kernel
+@inner
 def cell_of(T: float, table: int, tables: Tables) -> int:
     """Return the cell of a table that holds the pseudo-angle T; its edge lies ``table`` later."""
     count = tables.first_bucket[table + 1] - tables.first_bucket[table]
@@ -32,7 +32,7 @@ def cell_of(T: float, table: int, tables: Tables) -> int:
     return int(cell)
 
 
-@kernel
+@inner
 def turned(chart: int, major: float, minor: float) -> tuple[float, float]:
     """Turn a vector of a chart back to x and y."""
     if chart == 0:
@@ -44,7 +44,7 @@ def turned(chart: int, major: float, minor: float) -> tuple[float, float]:
     return minor, -major
 
 
-@kernel
+@inner
 def star(x: float, y: float, table: int, tables: Tables) -> tuple[float, float, float]:
     """Return h, dh/dx and dh/dy of a fixed contour (:mod:`phantom.compiled.sections`)."""
     chart, major, minor = chart_of(x, y)
@@ -66,7 +66,7 @@ def star(x: float, y: float, table: int, tables: Tables) -> tuple[float, float, 
     return major * major * g - 1.0, gx, gy
 
 
-@kernel
+@inner
 def changing_star(
     x: float, y: float, tau: float, table: int, tables: Tables
 ) -> tuple[float, float, float, float]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.lanes import LANES
 from phantom.kernels.leaves import quadric_leaf
 from phantom.kernels.scratch import Scratch
@@ -33,7 +33,50 @@ def clear(ends: Floats, slot: int) -> None:
         ends[2 * slot + 1, p] = 0.0
 
 
-@kernel
+@inner
+def pair_up(start: int, end: int, held: Scratch) -> int:
+    """Cancel records of one segment against those of the one before; return where they end now.
+
+    A ray that runs on inside through the plane between two segments leaves the one where it enters
+    the other, to the last bit. Of each pixel two records are held back, since either may be the
+    partner of one to come; the rest is written from ``start`` on.
+    """
+    pixels, where, signs = held.pixels, held.where, held.signs
+    waiting, senses = held.waiting, held.senses
+    for r in range(start, end):
+        p, w, sign = pixels[r], where[r], signs[r]
+        if senses[0, p] == -sign and waiting[0, p] == w:
+            senses[0, p] = 0.0
+            continue
+        if senses[1, p] == -sign and waiting[1, p] == w:
+            senses[1, p] = 0.0
+            continue
+        if senses[1, p] != 0.0:
+            # The older one goes: it has met the records of a whole segment.
+            pixels[start], where[start], signs[start] = p, waiting[1, p], senses[1, p]
+            start += 1
+        waiting[1, p], senses[1, p] = waiting[0, p], senses[0, p]
+        waiting[0, p], senses[0, p] = w, sign
+    return start
+
+
+@inner
+def let_go(filled: int, held: Scratch) -> int:
+    """Record all that was held back; return how many records there are, or -1 for no room."""
+    pixels, where, signs = held.pixels, held.where, held.signs
+    waiting, senses = held.waiting, held.senses
+    if filled + 2 * LANES > len(pixels):
+        return -1
+    for side in range(2):
+        for p in range(LANES):
+            if senses[side, p] != 0.0:
+                pixels[filled], where[filled], signs[filled] = p, waiting[side, p], senses[side, p]
+                senses[side, p] = 0.0
+                filled += 1
+    return filled
+
+
+@inner
 def settle(
     leaf: int,
     united: bool,
@@ -215,7 +258,7 @@ def ellipsoids(
     return left
 
 
-@kernel
+@inner
 def other_quadrics(
     scene: Scene,
     leaf: int,
@@ -262,7 +305,7 @@ def other_quadrics(
                 -shift,
                 length - shift,
                 shift,
-                0,
+                whole(0),
                 entries,
                 exits,
                 held.found,

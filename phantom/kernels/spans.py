@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel, lane_loop
+from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.csg import sort_events, surviving, toggle
 from phantom.kernels.scratch import MOST, Scratch
 
@@ -69,7 +69,7 @@ def put(sums: Floats, rays: Floats, row: int, column: int, width: int, out: Floa
         sums[j] = 0.0
 
 
-@kernel
+@inner
 def look(ends: Floats, slots: int, start: int, width: int, masks: Ints, met: Ints) -> int:
     """Note the slots that some pixels meet, and which of them each pixel does.
 
@@ -77,7 +77,7 @@ def look(ends: Floats, slots: int, start: int, width: int, masks: Ints, met: Int
     """
     for j in range(width):
         masks[j] = 0
-    count = 0
+    count = whole(0)
     for slot in range(slots):
         if mark(ends, slot, start, width, 1 << min(count, MOST), masks) > 0:
             met[count] = slot
@@ -87,7 +87,7 @@ def look(ends: Floats, slots: int, start: int, width: int, masks: Ints, met: Int
     return count
 
 
-@kernel
+@inner
 def span(
     scene: Scene,
     held: Scratch,
@@ -96,6 +96,8 @@ def span(
     start: int,
     width: int,
     number: int,
+    to_row: int,
+    to_column: int,
     out: Floats,
 ) -> int:
     """Fill pixels of a row from their ``number`` ends, named in ``held.kept``; return how many.
@@ -119,7 +121,7 @@ def span(
         wrong[m] = 0
     for e in range(number - 1):
         falls(ends, order[e], order[e + 1], start, width, wrong)
-    alike = 1
+    alike = whole(1)
     while alike < width and wrong[alike] == 0:
         alike += 1
     for channel in range(channels):
@@ -150,20 +152,23 @@ def span(
                 add(ends, order[e], factors[channel, e], start, alike, sums)
                 used = True
         if used:
-            put(sums, held.rays, row, column, alike, out[channel, row, column : column + alike])
+            to = out[channel, to_row, to_column : to_column + alike]
+            put(sums, held.rays, row, column, alike, to)
     return alike
 
 
-@kernel
+@inner
 def combine(
     scene: Scene,
     held: Scratch,
     slots: int,
     rows: int,
     columns: int,
+    to_row: int,
+    to_column: int,
     out: Floats,
 ) -> None:
-    """Fill ``out`` (M, rows, columns) from the slots of a tile.
+    """Fill a tile of ``out`` (M, ., .), which begins at a row and a column there, from its slots.
 
     A row is looked at whole; where its pixels meet more slots than a mask has bits, half of it,
     and so on down to one pixel. What a pixel gets depends on nothing but its own ends.
@@ -188,11 +193,12 @@ def combine(
                 if mask == 0:
                     j = end
                     continue
-                number = 0
+                number = whole(0)
                 for bit in range(count):
                     if alone or mask >> bit & 1:
                         kept[number] = 2 * met[bit]
                         kept[number + 1] = 2 * met[bit] + 1
                         number += 2
-                j += span(scene, held, i, j, i * columns + j, end - j, number, out)
+                start = i * columns + j
+                j += span(scene, held, i, j, start, end - j, number, to_row + i, to_column + j, out)
             first = last

@@ -8,19 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
-from phantom.kernels.compiling import kernel
+from phantom.kernels.compiling import inner, kernel, whole
 from phantom.kernels.isolation import isolate
 from phantom.kernels.lanes import TILE_COLUMNS, TILE_ROWS, collect
 from phantom.kernels.roots import ERROR_MM
 from phantom.kernels.scratch import Scratch
-from phantom.kernels.slots import clear, cut, ellipsoids, other_quadrics, settle
+from phantom.kernels.slots import clear, cut, ellipsoids, let_go, other_quadrics, pair_up, settle
 from phantom.kernels.spans import combine
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@kernel
+@inner
 def plane_along(
     n0: float, n1: float, n2: float, h: float, rays: Floats, center: Floats, into: Floats
 ) -> None:
@@ -35,7 +35,7 @@ def plane_along(
         into[step] = n0 * rays[step, 0] + n1 * rays[step, 1] + n2 * rays[step, 2]
 
 
-@kernel
+@inner
 def cylinder_records(
     scene: Scene,
     leaf: int,
@@ -50,7 +50,7 @@ def cylinder_records(
 ) -> int:
     """Record where the rays of a tile enter and leave the segments of a generalized cylinder."""
     rays, knots, slabs, middle = held.rays, held.knots, held.slabs, held.middle
-    filled = 0
+    filled = whole(0)
     center = scene.leaf_center[leaf]
     parts = scene.first_part[leaf + 1] - scene.first_part[leaf]
     # What is left of a chord in the next part may be far shorter than the chord itself.
@@ -93,6 +93,7 @@ def cylinder_records(
             n = collect(held.lanes, knots, k - first, slabs, i0, i1, j0, j1)
             if n == 0:
                 continue
+            before = filled
             filled = isolate(
                 n,
                 i0,
@@ -111,11 +112,13 @@ def cylinder_records(
                 columns,
             )
             if filled < 0:
+                held.senses[:] = 0.0
                 return -1
-    return filled
+            filled = pair_up(before, filled, held)
+    return let_go(filled, held)
 
 
-@kernel
+@inner
 def aim_tile(view: Floats, row: int, column: int, rows: int, columns: int, rays: Floats) -> float:
     """Write the rays of a tile; return the longest way from source to pixel in it, in mm."""
     for axis in range(3):
@@ -137,7 +140,7 @@ def aim_tile(view: Floats, row: int, column: int, rows: int, columns: int, rays:
     return math.sqrt(longest)
 
 
-@kernel
+@inner
 def quadric_slots(
     scene: Scene,
     leaf: int,
@@ -180,7 +183,7 @@ def quadric_slots(
     return other_quadrics(scene, leaf, i0, i1, j0, j1, columns, held, slots + 1)
 
 
-@kernel
+@inner
 def leaf_slots(
     scene: Scene,
     row: int,
@@ -194,7 +197,7 @@ def leaf_slots(
     held: Scratch,
 ) -> int:
     """Fill the slots of a tile; return how many there are, or -1 for no room."""
-    slots = 0
+    slots = whole(0)
     for leaf in range(len(scene.leaf_radius)):
         i0, i1 = max(leaf_fields[leaf, 0] - row, 0), min(leaf_fields[leaf, 1] - row, rows)
         j0, j1 = max(leaf_fields[leaf, 2] - column, 0), min(leaf_fields[leaf, 3] - column, columns)
@@ -241,10 +244,12 @@ def tiles(
     shortest_mm: float,
     held: Scratch,
     out: Floats,
+    above: int,
     failed: Ints,
 ) -> int:
-    """Fill rows ``first_row`` to ``last_row`` of ``out`` (M, rows, columns); count tiles left out.
+    """Fill rows ``first_row`` to ``last_row`` of a picture; count tiles left out.
 
+    ``out`` (M, rows, columns) is the picture from row ``above`` on.
     ``view`` is (6, 3): the origin of pixel (0, 0)'s ray, its steps to the next row and column, the
     way from it to the pixel, and its steps. ``leaf_fields`` (L, 4) and ``fields`` (S, 4) are the
     pixels, first and last row and column, beyond which a leaf or a segment is not seen. The first
@@ -269,10 +274,9 @@ def tiles(
                 ERROR_MM / longest,
                 held,
             )
-            tile = out[:, row : row + rows, column : column + columns]
             if slots < 0:
                 failed[missing, 0], failed[missing, 1] = row, column
                 missing += 1
             else:
-                combine(scene, held, slots, rows, columns, tile)
+                combine(scene, held, slots, rows, columns, row - above, column, out)
     return missing

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import CELLS
-from phantom.kernels.compiling import kernel, lane, lane_loop
+from phantom.kernels.compiling import inner, lane, lane_loop
 from phantom.kernels.cylinder import (
     cells_between,
     crosses_once,
@@ -114,7 +114,7 @@ def in_doubt(S: Floats, n: int) -> bool:
     return doubts > 0
 
 
-@kernel
+@inner
 def bound_cells(
     hessians: Floats, k: int, slabs: Floats, i0: int, i1: int, j0: int, j1: int, cells: Floats
 ) -> None:
@@ -149,7 +149,7 @@ def bound_cells(
                 cells[row, column, 1] += max(max(low * x, high * x), max(low * y, high * y))
 
 
-@kernel
+@inner
 def over_cells(
     cells: Floats, p1: float, d1: float, p2: float, d2: float, start: float, end: float
 ) -> tuple[float, float]:
@@ -164,7 +164,7 @@ def over_cells(
     return low, high
 
 
-@kernel
+@inner
 def look_closer(
     g0: float,
     s0: float,
@@ -186,7 +186,7 @@ def look_closer(
     return DONE if clear else SPLIT
 
 
-@kernel
+@inner
 def look_at_all(
     S: Floats,
     n: int,

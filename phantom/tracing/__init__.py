@@ -3,7 +3,7 @@
 from phantom.tracing.measure import Measure, measure
 from phantom.tracing.points import materials_at
 from phantom.tracing.pool import default_workers, warm
-from phantom.tracing.raster import raster
+from phantom.tracing.raster import raster, raster_bands
 from phantom.tracing.rays import Intervals, intervals, path_lengths
 from phantom.tracing.seen import FirstHits, first_hits
 
@@ -18,5 +18,6 @@ __all__ = [
     "measure",
     "path_lengths",
     "raster",
+    "raster_bands",
     "warm",
 ]

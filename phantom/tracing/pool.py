@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from phantom.compiled.layout import Scene
+    from phantom.scene import Phantom
 
     Floats = NDArray[np.float64]
 
@@ -87,8 +88,11 @@ def cut_bands(total: int, size: int) -> list[tuple[int, int]]:
     return [(start, min(start + size, total)) for start in range(0, total, size)]
 
 
-def warm() -> None:
-    """Compile every kernel, or load it from the cache: one small trace of each kind."""
+def warm(light: bool = True) -> None:
+    """Compile every kernel, or load it from the cache: one small trace of each kind.
+
+    Without ``light`` those are left out that only pictures in visible light need.
+    """
     import numpy as np
 
     from phantom.kernels.compiling import mark_complete
@@ -96,8 +100,6 @@ def warm() -> None:
     from phantom.tracing.points import materials_at
     from phantom.tracing.raster import raster
     from phantom.tracing.rays import intervals, path_lengths
-    from phantom.tracing.seen import first_hits
-    from phantom.tracing.shading import shaded
 
     phantom = load(
         {
@@ -121,13 +123,24 @@ def warm() -> None:
     intervals(phantom, origin, along)
     path_lengths(phantom, origin, along)
     materials_at(phantom, origin)
+    if light:
+        _warm_light(phantom, origin, along)
+    mark_complete(light)
+
+
+def _warm_light(phantom: Phantom, origin: Floats, along: Floats) -> None:
+    """Compile the kernels for visible light: one ray, one pixel."""
+    import numpy as np
+
+    from phantom.tracing.seen import first_hits
+    from phantom.tracing.shading import shaded
+
     first_hits(phantom, origin, along)
     view = np.array([[0, 0, -9], [0, 0, 0], [0, 0, 0], [0, 0, 18], [0, 1, 0], [1, 0, 0]], float)
     lights = np.array([[0.0, 0.0, -1.0, 0.0]]), np.ones((1, 3))
     look, shown = np.full((1, 7), 0.25), np.ones(1, dtype=np.uint8)
     shaded(phantom, view, 1, 1, 1, shown, look, np.ones(3), lights, shadows=True)
     _warm_meshes(phantom.compiled.scene, view, look, lights)
-    mark_complete()
 
 
 def _warm_meshes(scene: Scene, view: Floats, look: Floats, lights: tuple[Floats, Floats]) -> None:

@@ -16,6 +16,8 @@ from phantom.tracing.pool import cut_bands, run_bands
 
 Floats = NDArray[np.float64]
 
+Each = Callable[[int, Floats], None]
+
 _BAND_PIXELS = 16384
 _ROOM = 256
 _SLOTS = 64
@@ -34,6 +36,7 @@ def raster(
     workers: int | None = None,
     cancelled: Callable[[], bool] | None = None,
     progress: Callable[[int, int], None] | None = None,
+    each: Each | None = None,
 ) -> Floats:
     """Trace one ray to the centre of every pixel.
 
@@ -53,6 +56,8 @@ def raster(
         Size of the raster.
     workers, cancelled, progress
         As in :func:`phantom.tracing.pool.run_bands`; progress counts rows.
+    each
+        Called with every band as soon as it is traced; see :func:`raster_bands`.
 
     Returns
     -------
@@ -64,30 +69,89 @@ def raster(
     CancelledError
         Where ``cancelled`` said yes.
     """
+    view = _view(phantom, source, direction, first_pixel, column_step, row_step, columns, rows)
+    out = np.zeros((len(phantom.material_names), rows, columns))
+    _fill(phantom, view, columns, rows, out, each, workers, cancelled, progress)
+    return np.moveaxis(out, 0, -1)
+
+
+def raster_bands(
+    phantom: Phantom,
+    each: Each,
+    *,
+    source: Floats | None,
+    direction: Floats | None,
+    first_pixel: Floats,
+    column_step: Floats,
+    row_step: Floats,
+    columns: int,
+    rows: int,
+    workers: int | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
+    """Trace a raster band by band, and keep no more of it than the bands at work.
+
+    Parameters
+    ----------
+    each
+        Called with the first row of a band and its path lengths, ``(M, rows, columns)`` mm, on the
+        thread that traced them; the array is filled anew after that. The numbers are those that
+        :func:`raster` gives.
+
+    The others are those of :func:`raster`.
+
+    Raises
+    ------
+    CancelledError
+        Where ``cancelled`` said yes.
+    """
+    view = _view(phantom, source, direction, first_pixel, column_step, row_step, columns, rows)
+    _fill(phantom, view, columns, rows, None, each, workers, cancelled, progress)
+
+
+def _fill(
+    phantom: Phantom,
+    view: Floats,
+    columns: int,
+    rows: int,
+    out: Floats | None,
+    each: Each | None,
+    workers: int | None,
+    cancelled: Callable[[], bool] | None,
+    progress: Callable[[int, int], None] | None,
+) -> None:
+    """Trace into ``out`` (M, rows, columns) of zeros, or into an array a thread where None."""
     from phantom.kernels.lanes import TILE_COLUMNS, TILE_ROWS
-    from phantom.kernels.scratch import Scratch, scratch
+    from phantom.kernels.scratch import scratch
     from phantom.kernels.tiles import tiles
 
     scene = phantom.compiled.scene
-    view = _view(phantom, source, direction, first_pixel, column_step, row_step, columns, rows)
     seen = leaf_fields(scene, view, rows, columns), segment_fields(scene, view, rows, columns)
-    out = np.zeros((len(phantom.material_names), rows, columns))
+    channels = len(phantom.material_names)
     size = max(1, _BAND_PIXELS // max(columns, 1) // TILE_ROWS) * TILE_ROWS
     slots = 2 * len(scene.leaf_radius) + _SLOTS
     own = threading.local()
 
     def band(start: int, end: int) -> None:
-        held: Scratch | None = getattr(own, "scratch", None)
-        if held is None:
-            held = own.scratch = scratch(scene, len(out), slots)
+        if not hasattr(own, "held"):
+            own.held = scratch(scene, channels, slots)
+            own.into = np.empty((channels, size, columns)) if out is None else out
+        into, above = own.into, 0
+        if out is None:
+            into[:], above = 0.0, start
         failed = np.empty((-(-size // TILE_ROWS) * -(-columns // TILE_COLUMNS), 2), dtype=np.int64)
-        count = tiles(scene, view, *seen, start, end, tolerances.CHORD_MM, held, out, failed)
+        count = tiles(
+            scene, view, *seen, start, end, tolerances.CHORD_MM, own.held, into, above, failed
+        )
         for row, column in failed[:count]:
-            tile = out[:, row : min(row + TILE_ROWS, end), column : column + TILE_COLUMNS]
+            last = min(row + TILE_ROWS, end)
+            tile = into[:, row - above : last - above, column : column + TILE_COLUMNS]
             _ray_by_ray(scene, view, int(row), int(column), tile)
+        if each is not None:
+            each(start, into[:, start - above : end - above])
 
     run_bands(band, cut_bands(rows, size), workers=workers, cancelled=cancelled, progress=progress)
-    return np.moveaxis(out, 0, -1)
 
 
 def _view(

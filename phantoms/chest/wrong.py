@@ -4,34 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, Final
 
 import numpy as np
 
 from phantom.document import (
-    Cut,
     Cylinder,
     Difference,
     Ellipsoid,
-    Finding,
     Instance,
     Intersection,
-    Material,
     Point,
     ReferenceMaterial,
-    Replace,
     Solid,
     Sphere,
     Transformed,
 )
-from phantom.errors import InvalidInputError, Problem, pointer
+from phantom.errors import InvalidInputError
 from phantom.library import Abnormality
 from phantoms.chest import abnormalities as known
-from phantoms.chest import lungs, ribs, spine
+from phantoms.chest import lungs
+from phantoms.chest.bones import fracture, rib_lesion, vertebral_lesion
 from phantoms.chest.cage import Cage, FloatArray
+from phantoms.chest.changes import Changes, as_point
 from phantoms.chest.courses import TRACHEA
-from phantoms.chest.shapes import MIRROR, cone, tube
+from phantoms.chest.shapes import cone, tube
 from phantoms.parts import union
 
 SITES: Final[Mapping[str, Point]] = {
@@ -54,49 +51,6 @@ _COINS: Final[Mapping[str, Point]] = {
 _MENISCUS_MM: Final = 15.0
 """By which the fluid's surface stands higher at the wall than where it is lowest."""
 Fits = Callable[[FloatArray], "np.ndarray[Any, np.dtype[np.bool_]]"]
-
-
-@dataclass
-class Changes:
-    """What abnormalities do to a chest.
-
-    Attributes
-    ----------
-    in_lungs
-        Solids that replace lung and its vessels, below diaphragm and heart.
-    at_last
-        Solids that replace whatever is there.
-    ribs
-        Ribs in place of the healthy ones.
-    materials, findings
-        Those that are added.
-    """
-
-    in_lungs: list[Solid] = field(default_factory=list)
-    at_last: list[Solid] = field(default_factory=list)
-    ribs: dict[tuple[str, int], Solid] = field(default_factory=dict)
-    materials: dict[str, Material] = field(default_factory=dict)
-    findings: list[Finding] = field(default_factory=list)
-    problems: list[Problem] = field(default_factory=list)
-
-    def found(
-        self, one: Abnormality, name: str, leaves: Sequence[str], at: FloatArray, size: Any
-    ) -> None:
-        """Note a finding."""
-        kind = str(getattr(one, "kind", "")) + " " + str(one.type)  # type: ignore[attr-defined]
-        self.findings.append(
-            Finding(
-                name=name,
-                kind=kind.strip().replace("_", " "),
-                leaves=tuple(leaves),
-                center=_point(at),
-                size_mm=size,
-            )
-        )
-
-    def refuse(self, index: int, name: str, kind: str, message: str) -> None:
-        """Note that an abnormality does not fit."""
-        self.problems.append(Problem(pointer(("abnormalities", index, name)), kind, message))
 
 
 def changes(cage: Cage, wanted: Sequence[Abnormality], in_lung: Callable[[], Fits]) -> Changes:
@@ -133,11 +87,11 @@ def changes(cage: Cage, wanted: Sequence[Abnormality], in_lung: Callable[[], Fit
             case known.Pneumothorax():
                 _pneumothorax(cage, result, one, name)
             case known.RibFracture():
-                _fracture(cage, result, index, one, name)
+                fracture(cage, result, index, one, name)
             case known.RibLesion():
-                _rib_lesion(cage, result, one, name)
+                rib_lesion(cage, result, one, name)
             case known.VertebralLesion():
-                _vertebral_lesion(cage, result, index, one, name)
+                vertebral_lesion(cage, result, index, one, name)
             case known.Coin():
                 _coin(cage, result, one, name)
             case known.TrachealTube():
@@ -155,10 +109,6 @@ def _names(wanted: Sequence[Abnormality]) -> list[str]:
         before = sum(type(other) is type(one) for other in wanted[: len(found)])
         found.append(one.name or (plain if before == 0 else f"{plain} {before + 1}"))
     return found
-
-
-def _point(given: FloatArray) -> Point:
-    return (float(given[0]), float(given[1]), float(given[2]))
 
 
 def _ball_points(count: int = 300) -> FloatArray:
@@ -203,7 +153,7 @@ def _in_lung(
     result.materials[name] = ReferenceMaterial(
         reference="soft_tissue_icru44", density_g_cm3=one.density_g_cm3
     )
-    core = Sphere(type="sphere", name=name, material=name, center=_point(centre), radius=radius)
+    core = Sphere(type="sphere", name=name, material=name, center=as_point(centre), radius=radius)
     leaves = [name]
     solid: Solid = core
     if isinstance(one, known.Mass):
@@ -212,7 +162,7 @@ def _in_lung(
         parts: list[Solid] = [core.model_copy(update={"radius": 0.72 * radius})]
         for number, way in enumerate(_ball_points(9), 1):
             share = float(generator.uniform(0.42, 0.62))
-            at = _point(centre + (1.0 - share) * radius * way)
+            at = as_point(centre + (1.0 - share) * radius * way)
             lump = f"{name} lump {number}"
             parts.append(
                 Sphere(type="sphere", name=lump, material=name, center=at, radius=share * radius)
@@ -225,7 +175,7 @@ def _in_lung(
             label = f"{name} spicule {number}"
             ends = (centre + 0.75 * radius * way, centre + (radius + length) * way)
             widths = (0.09 * radius + 0.6, 0.25)
-            parts.append(cone(label, _point(ends[0]), _point(ends[1]), widths, name))
+            parts.append(cone(label, as_point(ends[0]), as_point(ends[1]), widths, name))
             leaves.append(label)
         side = "left" if centre[0] > 0 else "right"
         bound = Instance(type="instance", of=f"{side} lung", name=f"bounds of {name}")
@@ -292,130 +242,13 @@ def _pneumothorax(cage: Cage, result: Changes, one: known.Pneumothorax, name: st
         name=f"lung within {name}",
         solid=Instance(type="instance", of=f"{one.side} lung"),
         scale=scale,
-        translate=_point((1.0 - scale) * hilum),
+        translate=as_point((1.0 - scale) * hilum),
     )
     result.in_lungs.append(Difference(type="difference", solids=(air, inside)))
     at = np.array(
         [(rows[-3, 1] + rows[-3, 2]) / 2, (rows[-3, 3] + rows[-3, 4]) / 2, apex - one.rim_mm / 2]
     )
     result.found(one, name, [name], at, one.rim_mm)
-
-
-def _in_rib(
-    cage: Cage, one: known.RibFracture | known.RibLesion
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the place, the way forward and the way down along the wall, drawn on the left."""
-    from scipy.interpolate import CubicSpline
-
-    line = cage.rib(one.rib)
-    steps = np.linalg.norm(np.diff(line.points, axis=0), axis=1)
-    at = np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
-    curve = CubicSpline(at, line.points)
-    place, forward = curve(one.along), curve(one.along, 1)
-    forward /= np.linalg.norm(forward)
-    normal = CubicSpline(at, line.normals)(one.along)
-    down = np.cross(normal, forward)
-    down /= np.linalg.norm(down)
-    return place, forward, down if down[2] < 0 else -down
-
-
-def _on_side(point: FloatArray, side: str) -> FloatArray:
-    return point * [1.0 if side == "left" else -1.0, 1.0, 1.0]
-
-
-def _fracture(cage: Cage, result: Changes, index: int, one: known.RibFracture, name: str) -> None:
-    """Cut a rib in two and move its front fragment."""
-    if (one.side, one.rib) in result.ribs:
-        message = f"found {one.side} rib {one.rib} again; expected one fracture of a rib"
-        result.refuse(index, "rib", "repeated", message)
-        return
-    place, forward, down = _in_rib(cage, one)
-    whole = ribs.rib(cage, one.rib)
-    assert isinstance(whole, Replace)
-    fragments: list[Solid] = []
-    for word, way in (("back fragment", 1.0), ("front fragment", -1.0)):
-        cut = Cut(
-            point=_point(place - 0.5 * way * one.gap_mm * forward), normal=_point(way * forward)
-        )
-        parts = tuple(leaf.model_copy(update={"cuts": (cut,)}) for leaf in whole.solids)
-        moved = one.step_mm * down if way < 0 else np.zeros(3)
-        fragments.append(
-            Transformed(
-                type="transformed",
-                name=word,
-                solid=Replace(type="replace", solids=parts),
-                translate=_point(moved),
-            )
-        )
-    matrix = MIRROR if one.side == "right" else None
-    label = f"{one.side} rib {one.rib}"
-    result.ribs[one.side, one.rib] = Transformed(
-        type="transformed", name=label, solid=union(*fragments), matrix=matrix
-    )
-    leaves = [
-        f"{label}/{w} fragment/{part}"
-        for w in ("back", "front")
-        for part in ("cortex", "spongiosa")
-    ]
-    result.found(one, name, leaves, _on_side(place, one.side), max(one.gap_mm, one.step_mm))
-
-
-def _rib_lesion(cage: Cage, result: Changes, one: known.RibLesion, name: str) -> None:
-    """Add a ball that is kept within a rib."""
-    place, _, _ = _in_rib(cage, one)
-    at = _on_side(place, one.side)
-    ball = Sphere(
-        type="sphere", name=name, material=_lesion(result, one.kind), center=_point(at),
-        radius=one.length_mm / 2,
-    )  # fmt: skip
-    bound = Transformed(
-        type="transformed",
-        name=f"bounds of {name}",
-        solid=Instance(type="instance", of=f"rib {one.rib}"),
-        matrix=MIRROR if one.side == "right" else None,
-    )
-    result.at_last.append(Intersection(type="intersection", solids=(ball, bound)))
-    result.found(one, name, [name], at, one.length_mm)
-
-
-def _lesion(result: Changes, kind: str) -> str:
-    """Return the material of a lesion of bone, declared."""
-    word = f"{kind} bone"
-    result.materials.setdefault(
-        word,
-        ReferenceMaterial(reference="soft_tissue_icru44")
-        if kind == "lytic"
-        else ReferenceMaterial(reference="cortical_bone_icru44", density_g_cm3=1.75),
-    )
-    return word
-
-
-def _vertebral_lesion(
-    cage: Cage, result: Changes, index: int, one: known.VertebralLesion, name: str
-) -> None:
-    """Add a ball within the body of a vertebra."""
-    f = cage.frame
-    level = spine.LEVELS[one.level]
-    kind, size = spine.KINDS[level.kind], level.size * f.bone
-    half = np.array([kind.half_x, kind.half_y, kind.height / 2]) * size
-    room = spine.WAIST * half - np.abs(one.offset_mm) - one.diameter_mm / 2
-    if (room < 0).any():
-        least = float((spine.WAIST * half - np.abs(one.offset_mm)).min())
-        field_name = "diameter_mm" if 2 * least >= 4.0 else "offset_mm"
-        message = (
-            f"found {one.diameter_mm:g} mm at [{', '.join(f'{v:g}' for v in one.offset_mm)}] in"
-            f" {one.level}, whose body reaches {half[0]:.1f}, {half[1]:.1f} and {half[2]:.1f} mm;"
-            f" expected 4 to {max(2 * least, 4.0):.1f} mm there"
-        )
-        result.refuse(index, field_name, "does_not_fit", message)
-        return
-    at = np.array(spine.centre(f, one.level)) + one.offset_mm
-    ball = Sphere(
-        type="sphere", name=name, material=_lesion(result, one.kind), center=_point(at),
-        radius=one.diameter_mm / 2,
-    )  # fmt: skip
-    result.at_last.append(ball)
-    result.found(one, name, [name], at, one.diameter_mm)
 
 
 def _coin(cage: Cage, result: Changes, one: known.Coin, name: str) -> None:
@@ -428,8 +261,8 @@ def _coin(cage: Cage, result: Changes, one: known.Coin, name: str) -> None:
             type="cylinder",
             name=name,
             material="steel",
-            start=_point(at - half),
-            end=_point(at + half),
+            start=as_point(at - half),
+            end=as_point(at + half),
             radius=one.diameter_mm / 2,
         )
     )
@@ -443,7 +276,7 @@ def _tracheal_tube(cage: Cage, result: Changes, one: known.TrachealTube, name: s
     tip_z = f.at(0.0, 0.0, 50.0)[2] + one.tip_above_carina_mm
     kept = path[path[:, 2] > tip_z + 12.0]
     tip = [float(np.interp(tip_z, path[::-1, 2], path[::-1, i])) for i in range(3)]
-    points = [_point(p) for p in (*kept, np.array(tip))]
+    points = [as_point(p) for p in (*kept, np.array(tip))]
     result.materials.setdefault("tube", ReferenceMaterial(reference="pmma", density_g_cm3=1.5))
     for label, radius, material in ((name, 5.4, "tube"), (f"air in {name}", 4.0, "air")):
         result.at_last.append(

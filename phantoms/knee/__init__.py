@@ -11,12 +11,13 @@ __all__ = ["Parameters", "build", "entry", "of_person"]
 
 
 def _technique(window: tuple[float, float]) -> Technique:
-    """Return the usual technique: 65 kV, no grid, the detector 100 mm off or as near as can be."""
+    """Return the usual technique: 65 kV, no grid, a field within the limb's cut ends."""
     return Technique(
         kvp=65.0,
         source_detector_mm=1150.0,
         window=window,
         air_kerma_ugy=2.5,
+        field_mm=250.0,
     )
 
 

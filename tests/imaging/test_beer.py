@@ -170,3 +170,24 @@ def test_the_result_tells_the_tube_and_its_quality() -> None:
     assert signal["response"] == "energy_integrating"
     told = image.metadata()["beam"]
     assert Beam.model_validate(told) == beam
+
+
+@pytest.mark.parametrize("beam", [Beam(energy_kev=60), Beam(kvp=80)], ids=["energy", "spectrum"])
+def test_a_picture_traced_in_bands_has_the_same_bytes(beam: Beam) -> None:
+    ball = ball_of(WATER, BONE)
+    view = preset_view(ball, "ap", columns=150, rows=333)
+    whole = radiograph(ball, view, beam)
+    bands = radiograph(ball, view, beam, keep_path_lengths=False)
+    assert bands.kept is None
+    for name in ("signal", "transmission", "line_integral", "path_lengths"):
+        np.testing.assert_array_equal(bands.quantity(name), whole.quantity(name))
+
+
+def test_a_detectors_image_needs_no_path_lengths_afterwards() -> None:
+    ball = ball_of(WATER)
+    view = preset_view(ball, "ap", columns=40, rows=30)
+    asked = Acquisition(quantum_noise="off")
+    whole = radiograph(ball, view, acquisition=asked)
+    light = radiograph(ball, view, acquisition=asked, keep_path_lengths=False)
+    np.testing.assert_array_equal(light.signal, whole.signal)
+    np.testing.assert_array_equal(light.transmission, whole.transmission)

@@ -10,7 +10,7 @@ import numba
 import pytest
 from llvmlite.binding import get_host_cpu_features
 
-from phantom.kernels import lanes, roots, slots, spans, verdicts
+from phantom.kernels import glances, lanes, roots, round_tubes, slots, spans, verdicts
 
 pytestmark = pytest.mark.skipif(
     platform.machine() not in ("x86_64", "AMD64"), reason="reads the names of x86's registers"
@@ -30,6 +30,21 @@ LOOPS = {
         lanes.evaluate_jets,
         (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
         {"vfmadd": 120, "vdivpd": 2},
+    ),
+    "one look": (
+        round_tubes.probe,
+        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
+        {"vfmadd": 120, "vdivpd": 3},
+    ),
+    "judge one look": (
+        glances.judge_glance,
+        (FLOATS, INT, MATRIX, TENSOR, INT),
+        {"vsqrtpd": 2, "vdivpd": 2},
+    ),
+    "both ends": (
+        round_tubes.chords,
+        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT, FLOAT),
+        {"vfmadd": 300, "vdivpd": 8, "vsqrtpd": 1},
     ),
     "collect": (
         lanes.collect,

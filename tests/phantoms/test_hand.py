@@ -14,6 +14,7 @@ from phantom.library import Population, mean_person
 from phantom.scene import Phantom, load
 from phantom.tracing import intervals, materials_at, path_lengths
 from phantoms.hand import Parameters, entry
+from phantoms.hand.skeleton import skeleton
 
 # Buryanov and Kotiuk 2010, table I: mean and standard deviation, mm.
 PUBLISHED = {
@@ -260,6 +261,54 @@ def test_people_are_themselves_and_differ() -> None:
     assert np.corrcoef(index, ages)[0, 1] < -0.3
     for person in first[:12]:
         entry.build(person)
+
+
+def of_one_material(tree: dict[str, Any], material: str) -> dict[str, Any]:
+    """A solid's tree with all that it is made of in one material."""
+    changed = dict(tree)
+    if tree.get("material") is not None:
+        changed["material"] = material
+    if "solid" in tree:
+        changed["solid"] = of_one_material(tree["solid"], material)
+    if "solids" in tree:
+        changed["solids"] = [of_one_material(part, material) for part in tree["solids"]]
+    return changed
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("seed", range(12))
+def test_no_bone_goes_through_another(seed: int) -> None:
+    """Where bones add up and where each hides the next, rays meet as much bone within 0.1 mm."""
+    generator = np.random.default_rng(seed)
+    assert entry.of_person is not None
+    chosen = entry.of_person(Population().draw(generator), generator).resolved()
+    bones = skeleton(chosen)
+    solids = bones.solids()
+    names = [str(solid.name) for solid in solids]
+    trees = [
+        of_one_material(solid.model_dump(mode="json"), name)
+        for solid, name in zip(solids, names, strict=True)
+    ]
+    lengths = []
+    low, high = np.array((-50.0, -30.0, -75.0)), np.array((100.0, 30.0, 185.0))
+    for operator in ("overlap", "union"):
+        phantom = load(
+            {
+                "format": "phantom/1",
+                "materials": {name: {"attenuation_per_mm": 1.0} for name in names},
+                "solid": {"type": operator, "solids": trees},
+            }
+        )
+        found = []
+        for axis in range(3):
+            sides = [i for i in range(3) if i != axis]
+            grid = np.meshgrid(*[bones.scale * np.arange(low[i], high[i], 0.8) for i in sides])
+            origins = np.full((grid[0].size, 3), -500.0)
+            origins[:, sides] = np.stack([side.ravel() for side in grid], axis=1)
+            directions = np.broadcast_to(np.eye(3)[axis], origins.shape)
+            found.append(path_lengths(phantom, origins, directions).sum(axis=1))
+        lengths.append(np.concatenate(found))
+    assert np.max(lengths[0] - lengths[1]) < 0.1
 
 
 @pytest.mark.nightly

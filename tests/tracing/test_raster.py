@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import phantom
-from phantom.tracing import path_lengths, raster
+from phantom.tracing import path_lengths, raster, raster_bands
 from tests.oracles import documents, families, families_new
 
 AGREE_MM = 1e-8
@@ -159,3 +159,23 @@ def test_the_number_of_threads_and_the_bands_change_no_bit():
     one = raster(scene, workers=1, **given)
     for workers in (2, 5):
         assert np.array_equal(one, raster(scene, workers=workers, **given))
+
+
+def test_bands_are_the_rows_of_the_whole_picture():
+    scene = phantom.load("bench/knee-like.json")
+    given = {
+        "source": np.array([0.0, -1000.0, 0.0]),
+        "direction": None,
+        "first_pixel": np.array([-150.0, 500.0, 150.0]),
+        "column_step": np.array([0.5, 0.0, 0.0]),
+        "row_step": np.array([0.0, 0.0, -5.0]),
+        "columns": 600,
+        "rows": 61,
+    }
+    seen = np.full((61, 600, len(scene.material_names)), np.nan)
+
+    def each(first, lengths):
+        seen[first : first + lengths.shape[1]] = np.moveaxis(lengths, 0, -1)
+
+    raster_bands(scene, each, **given)
+    assert np.array_equal(seen, raster(scene, **given))
