@@ -16,13 +16,13 @@ import shutil
 import sqlite3
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Final
 
+from api.job import ACTIVE, OVER, TABLE, Job, job_of
 from api.problems import RefusedError
 from phantom.datasets import Run, make
 from phantom.datasets.checks import check, expected_bytes
@@ -33,67 +33,9 @@ from phantom.requests.limits import Limits
 
 logger = logging.getLogger("phantom.api")
 
-ACTIVE: Final = ("queued", "running", "out_of_space")
-OVER: Final = ("done", "failed", "cancelled")
-
 LOOK_S: Final = 1.0
 ROOM_S: Final = 5.0
 """How long a job without room waits before it is tried again."""
-
-_TABLE: Final = """
-CREATE TABLE IF NOT EXISTS job (
-    id TEXT PRIMARY KEY,
-    key TEXT UNIQUE,
-    body TEXT NOT NULL,
-    design TEXT NOT NULL,
-    state TEXT NOT NULL,
-    images INTEGER NOT NULL,
-    done INTEGER NOT NULL DEFAULT 0,
-    aside INTEGER NOT NULL DEFAULT 0,
-    bytes INTEGER NOT NULL,
-    created REAL NOT NULL,
-    begun REAL,
-    first INTEGER NOT NULL DEFAULT 0,
-    ended REAL,
-    problem TEXT
-)
-"""
-
-
-@dataclass(frozen=True, slots=True)
-class Job:
-    """What is known of a job; its fields are the columns of the file."""
-
-    id: str
-    key: str | None
-    body: str
-    design: str
-    state: str
-    images: int
-    done: int
-    aside: int
-    bytes: int
-    created: float
-    begun: float | None
-    first: int
-    ended: float | None
-    problem: str | None
-
-    @property
-    def images_per_s(self) -> float | None:
-        """How fast it goes; None where nothing can be said yet."""
-        if self.begun is None or self.done <= self.first:
-            return None
-        until = self.ended if self.ended is not None else time.time()
-        return (self.done - self.first) / max(until - self.begun, 1e-3)
-
-    @property
-    def seconds_left(self) -> float | None:
-        """How long it will take yet; None where nothing can be said."""
-        rate = self.images_per_s
-        if rate is None or self.state != "running":
-            return None
-        return (self.images - self.done - self.aside) / rate
 
 
 class Jobs:
@@ -209,13 +151,13 @@ class Jobs:
             row = file.execute("SELECT * FROM job WHERE id = ?", (number,)).fetchone()
         if row is None:
             raise RefusedError(HTTPStatus.NOT_FOUND, "no such job")
-        return _job(row)
+        return job_of(row)
 
     def all(self) -> list[Job]:
         """Return every job, the newest first."""
         with self._file() as file:
             rows = file.execute("SELECT * FROM job ORDER BY created DESC, id").fetchall()
-        return [_job(row) for row in rows]
+        return [job_of(row) for row in rows]
 
     def cancel(self, number: str) -> Job:
         """Stop a job that is not over, and forget one that is; return what it was."""
@@ -251,7 +193,7 @@ class Jobs:
             file.row_factory = sqlite3.Row
             file.execute("PRAGMA journal_mode=WAL")
             file.execute("PRAGMA synchronous=FULL")
-            file.execute(_TABLE)
+            file.execute(TABLE)
             file.execute("BEGIN IMMEDIATE")
             yield file
             file.execute("COMMIT")
@@ -263,7 +205,7 @@ class Jobs:
     def _of_key(self, key: str) -> Job | None:
         with self._file() as file:
             row = file.execute("SELECT * FROM job WHERE key = ?", (key,)).fetchone()
-        return None if row is None else _job(row)
+        return None if row is None else job_of(row)
 
     def _same(self, known: Job, body: str) -> Job:
         if known.body != body:
@@ -385,10 +327,6 @@ class Jobs:
         until = time.monotonic() + ROOM_S
         while time.monotonic() < until and not stop.is_set() and not self._leaving.is_set():
             self._wake.wait(0.2)
-
-
-def _job(row: Mapping[str, Any]) -> Job:
-    return Job(**{name: row[name] for name in Job.__slots__})
 
 
 def _no_room(error: Exception) -> Exception:

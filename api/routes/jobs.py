@@ -15,7 +15,7 @@ from fastapi import APIRouter
 from fastapi.responses import FileResponse, StreamingResponse
 from pydantic import BaseModel, Field
 
-from api.jobs import OVER, Job
+from api.job import OVER, Job
 from api.problems import PROBLEMS, RefusedError
 from api.service import Service
 from phantom.datasets.names import STATE

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from phantom.document import Finding, Point, Solid, Sphere
+from phantom.document import Finding, Solid, Sphere
 from phantom.errors import InvalidInputError, Problem
 from phantom.library import Abnormality
 from phantoms.hand.abnormalities import (
@@ -22,9 +22,9 @@ from phantoms.hand.abnormalities import (
     LyticLesion,
     Osteoarthritis,
 )
-from phantoms.hand.frames import FloatArray, Frame
-from phantoms.hand.sizes import DISTAL, METACARPAL, MIDDLE, PROXIMAL
-from phantoms.hand.skeleton import SPACES, BoneName, Break, Placed, Skeleton, beyond, met
+from phantoms.hand.frames import Frame
+from phantoms.hand.places import DIRECTIONS, bone_of, bowed_mm, half_mm, joint_of, point_at, touches
+from phantoms.hand.skeleton import SPACES, Break, Skeleton, beyond, met
 from phantoms.hand.soft import within_skin
 from phantoms.hand.tubular import CORTEX, PLATE_MM
 from phantoms.parts import Station, ellipsoid
@@ -38,12 +38,6 @@ _GRADES: Final = {
     2: (0.75, 1.0, 0.3),
     3: (0.45, 1.7, 0.8),
     4: (0.15, 2.5, 1.4),
-}
-_JOINTS: Final = {
-    "metacarpophalangeal": (METACARPAL, PROXIMAL),
-    "interphalangeal": (PROXIMAL, DISTAL),
-    "proximal interphalangeal": (PROXIMAL, MIDDLE),
-    "distal interphalangeal": (MIDDLE, DISTAL),
 }
 
 
@@ -108,7 +102,7 @@ Outlines = dict[str, list[Station]]
 
 
 def _fracture(hand: Hand, wrong: Fracture, name: str, _: Outlines) -> Hand:
-    place = _bone_of(wrong.bone)
+    place = bone_of(wrong.bone)
     placed = hand.bones.bones[place]
     if placed.broken is not None or placed.inside:
         message = f"found {wrong.bone!r}, which has a fracture or a lesion; expected another bone"
@@ -122,20 +116,20 @@ def _fracture(hand: Hand, wrong: Fracture, name: str, _: Outlines) -> Hand:
     for other in beyond(*place):
         frame = bones.bones[other].frame
         bones = bones.changed(other, frame=Frame(frame.origin + moved, frame.axes))
-    width = 2 * _half(placed.shape.outer, at[2])[0]
+    width = 2 * half_mm(placed.shape.outer, at[2])[0]
     leaves = tuple(f"{wrong.bone}/{part} fragment/cortex" for part in ("inner", "outer"))
     finding = Finding(
         name=name,
         kind="fracture",
         leaves=leaves,
-        center=_point(placed.frame, at),
+        center=point_at(placed.frame, at),
         size_mm=round(width / math.cos(tilt) + abs(wrong.step_mm), 3),
     )
     return hand.found(finding, bones)
 
 
 def _lesion(hand: Hand, wrong: LyticLesion | BlasticLesion, name: str, _: Outlines) -> Hand:
-    place = _bone_of(wrong.bone)
+    place = bone_of(wrong.bone)
     placed = hand.bones.bones[place]
     shape, outer = placed.shape, placed.shape.outer
     z = wrong.at * shape.length_mm
@@ -148,13 +142,13 @@ def _lesion(hand: Hand, wrong: LyticLesion | BlasticLesion, name: str, _: Outlin
     flat = shape.width.shaft_depth / shape.width.shaft
     most = math.inf
     for share in np.linspace(-0.98, 0.98, 25):
-        wide, deep = _half(outer, z + float(share) * half)
+        wide, deep = half_mm(outer, z + float(share) * half)
         round_ = math.sqrt(1 - float(share) ** 2)
         most = min(most, (wide - _SPARE_MM) / round_, (deep - _SPARE_MM) / round_ / flat)
     if wrong.width_mm > 2 * most:
         message = f"found {wrong.width_mm:g} mm; expected at most {2 * most:.3g} mm in that bone"
         raise MisfitError("width_mm", message)
-    middle = (0.0, _bowed(outer, z), z)
+    middle = (0.0, bowed_mm(outer, z), z)
     lytic = isinstance(wrong, LyticLesion)
     size = (wrong.width_mm / 2, flat * wrong.width_mm / 2, half)
     leaf = ellipsoid(name, middle, size, CARTILAGE if lytic else DENSE)
@@ -162,14 +156,14 @@ def _lesion(hand: Hand, wrong: LyticLesion | BlasticLesion, name: str, _: Outlin
         name=name,
         kind="lytic lesion" if lytic else "blastic lesion",
         leaves=(f"{wrong.bone}/{name}",),
-        center=_point(placed.frame, middle),
+        center=point_at(placed.frame, middle),
         size_mm=(wrong.width_mm, round(flat * wrong.width_mm, 3), wrong.length_mm),
     )
     return hand.found(finding, hand.bones.changed(place, inside=(*placed.inside, leaf)))
 
 
 def _osteoarthritis(hand: Hand, wrong: Osteoarthritis, name: str, _: Outlines) -> Hand:
-    inner_name, outer_name = _joint_of(wrong.joint)
+    inner_name, outer_name = joint_of(wrong.joint)
     inner, outer = hand.bones.bones[inner_name], hand.bones.bones[outer_name]
     space, spur, dense = _GRADES[wrong.grade]
     space = space if wrong.space is None else wrong.space
@@ -200,14 +194,14 @@ def _osteoarthritis(hand: Hand, wrong: Osteoarthritis, name: str, _: Outlines) -
         name=name,
         kind=f"osteoarthritis, grade {wrong.grade}",
         leaves=tuple(f"{' '.join(outer_name)}/{leaf.name}" for leaf in spurs),
-        center=_point(outer.frame, (0.0, 0.0, -gap / 2)),
+        center=point_at(outer.frame, (0.0, 0.0, -gap / 2)),
         size_mm=round(width + spur, 3),
     )
     return hand.found(finding, bones)
 
 
 def _erosion(hand: Hand, wrong: Erosion, name: str, _: Outlines) -> Hand:
-    _inner, place = _joint_of(wrong.joint)
+    _inner, place = joint_of(wrong.joint)
     placed = hand.bones.bones[place]
     sign = 1.0 if wrong.edge == "radial" else -1.0
     center = (sign * 0.47 * placed.shape.width.base, 0.0, 0.4 + 0.35 * wrong.diameter_mm)
@@ -215,21 +209,21 @@ def _erosion(hand: Hand, wrong: Erosion, name: str, _: Outlines) -> Hand:
     finding = Finding(
         name=name,
         kind="erosion",
-        center=_point(placed.frame, center),
+        center=point_at(placed.frame, center),
         size_mm=wrong.diameter_mm,
     )
     return hand.found(finding, hand.bones.changed(place, eroded=(*placed.eroded, bite)))
 
 
 def _foreign_body(hand: Hand, wrong: ForeignBody, name: str, outlines: Outlines) -> Hand:
-    placed = hand.bones.bones[_bone_of(wrong.bone)]
+    placed = hand.bones.bones[bone_of(wrong.bone)]
     center = (wrong.aside_mm, -wrong.deep_mm, wrong.at * placed.shape.length_mm)
     size = (wrong.width_mm / 2, wrong.width_mm / 2, wrong.length_mm / 2)
-    surface = np.array(center) + (np.array(size) + _SPARE_MM) * _DIRECTIONS
+    surface = np.array(center) + (np.array(size) + _SPARE_MM) * DIRECTIONS
     points = placed.frame.origin + surface @ placed.frame.axes.T
     where = f"found {wrong.deep_mm:g} mm"
     for name_, other in hand.bones.bones.items():
-        if _touches(other, points):
+        if touches(other, points):
             message = f"{where}, in or against the {' '.join(name_)}; expected it beside all bones"
             raise MisfitError("deep_mm", message)
     if not all(within_skin(outlines, point) for point in points):
@@ -242,7 +236,7 @@ def _foreign_body(hand: Hand, wrong: ForeignBody, name: str, outlines: Outlines)
         name=name,
         kind=f"foreign body of {wrong.substance}",
         leaves=(f"beside {wrong.bone}/{name}",),
-        center=_point(placed.frame, center),
+        center=point_at(placed.frame, center),
         size_mm=(wrong.width_mm, wrong.width_mm, wrong.length_mm),
     )
     return hand.found(finding, hand.bones, body)
@@ -256,56 +250,3 @@ _APPLY: Final[dict[type[Abnormality], Callable[..., Hand]]] = {
     Erosion: _erosion,
     ForeignBody: _foreign_body,
 }
-_DIRECTIONS: Final = np.array(
-    [
-        (x, y, z)
-        for x in (-0.7, 0.0, 0.7)
-        for y in (-0.7, 0.0, 0.7)
-        for z in (-1.0, -0.7, 0.0, 0.7, 1.0)
-        if 0.9 < math.hypot(x, y, z) < 1.25
-    ]
-)
-
-
-def _touches(placed: Placed, points: FloatArray) -> bool:
-    """Whether a point is in a bone: its shaft or base, or an ellipsoid of its head."""
-    local = (points - placed.frame.origin) @ placed.frame.axes
-    outer = placed.shape.outer
-    for x, y, z in local:
-        if outer[0].at[2] <= z <= outer[-1].at[2]:
-            wide, deep = _half(outer, z)
-            if math.hypot(x / wide, (y - _bowed(outer, z)) / deep) < 1.0:
-                return True
-        for knob in placed.shape.knobs:
-            away = (np.array((x, y, z)) - knob.center) / np.array(knob.semi_axes)
-            if np.linalg.norm(away) < 1.0:
-                return True
-    return False
-
-
-def _bone_of(word: str) -> BoneName:
-    digit, _, kind = word.partition(" ")
-    return (digit, kind)
-
-
-def _joint_of(word: str) -> tuple[BoneName, BoneName]:
-    digit, _, kind = word.partition(" ")
-    inner, outer = _JOINTS[kind]
-    return ((digit, inner), (digit, outer))
-
-
-def _half(outer: Sequence[Station], z: float) -> tuple[float, float]:
-    """Return half the width and half the depth of a bone at a place."""
-    at = [station.at[2] for station in outer]
-    wide = np.interp(z, at, [station.x[1] for station in outer])
-    deep = np.interp(z, at, [station.b[1] for station in outer])
-    return float(wide), float(deep)
-
-
-def _bowed(outer: Sequence[Station], z: float) -> float:
-    return float(np.interp(z, [s.at[2] for s in outer], [s.at[1] for s in outer]))
-
-
-def _point(frame: Frame, local: Point) -> Point:
-    x, y, z = (round(float(value), 6) for value in frame.point(local))
-    return (x, y, z)
