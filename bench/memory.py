@@ -15,13 +15,18 @@ from bench.scenes import KNEE_LIKE
 
 WATCH = """
 import json, resource, sys
+from pathlib import Path
 sys.argv = json.loads(sys.argv[1])
 from phantom.cli import main
 try:
     main()
 finally:
+    # Linux lets a process's ru_maxrss begin with its parent's; VmHWM begins with the process.
+    told = Path("/proc/self/status")
+    lines = told.read_text().splitlines() if told.exists() else []
+    peak = [int(line.split()[1]) for line in lines if line.startswith("VmHWM")]
     kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    print(kib if sys.platform != "darwin" else kib // 1024)
+    print(peak[0] if peak else kib if sys.platform != "darwin" else kib // 1024)
 """
 
 
