@@ -30,6 +30,7 @@ from phantom.document import (
 from phantom.document.base import Integer, refuse
 from phantom.errors import InvalidInputError, Problem, pointer
 from phantom.library import Abnormality, Entry, Technique
+from phantoms.draws import generator_of
 from phantoms.fields import count, millimetres
 
 if TYPE_CHECKING:
@@ -76,10 +77,6 @@ class Density(Abnormality):
     seed: Annotated[Integer, told("Seed", "none", "Of its place.", ge=0, lt=2**64)] = 0
 
 
-def _generator(seed: int) -> np.random.Generator:
-    return np.random.Generator(np.random.Philox(np.random.SeedSequence(seed)))
-
-
 def _in_half_ball(radius_mm: float, generator: np.random.Generator) -> FloatArray:
     """Return a point of the half ball in front of the chest wall, all places alike."""
     way = generator.standard_normal(3)
@@ -106,12 +103,12 @@ def _added(
 ) -> tuple[list[Solid], Point, float]:
     """Return the spheres of an abnormality, its centre and its size in mm."""
     if isinstance(wanted, Density):
-        generator = _generator(wanted.seed)
+        generator = generator_of(wanted.seed)
         center = _in_half_ball(0.8 * radius_mm - wanted.diameter_mm / 2, generator)
         ball = _ball(name, material, center, wanted.diameter_mm)
         return [ball], ball.center, wanted.diameter_mm
     assert isinstance(wanted, Arrangement)
-    generator = _generator(wanted.seed)
+    generator = generator_of(wanted.seed)
     room = radius_mm - (wanted.ring_mm + wanted.diameter_mm) / 2
     middle = _in_half_ball(0.7 * room, generator)
     one, other, _ = np.linalg.qr(generator.standard_normal((3, 3)))[0]
@@ -138,7 +135,7 @@ def _room_mm(wanted: Abnormality) -> tuple[str, float]:
 def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> Document:
     """Return the breast, the middle of its chest wall at the origin, the nipple's side at -y."""
     p = parameters
-    generator = _generator(p.seed)
+    generator = generator_of(p.seed)
     wall = Cut(point=(0.0, 0.0, 0.0), normal=(0.0, 1.0, 0.0))
     fat = Sphere(
         type="sphere",

@@ -29,6 +29,7 @@ from phantom.document import (
 )
 from phantom.document.base import Integer, refuse
 from phantom.library import Entry, Technique
+from phantoms.draws import generator_of
 from phantoms.fields import ReferenceName, count, millimetres
 
 
@@ -105,7 +106,7 @@ def _fibril(name: str, depth: float, z: float, width: float, p: Parameters, bend
 def build(parameters: Parameters) -> Document:
     """Return the slab about the origin; the landmarks tell where each target is."""
     p = parameters
-    generator = np.random.Generator(np.random.Philox(np.random.SeedSequence(p.seed)))
+    generator = generator_of(p.seed)
     width = max(p.columns, 4) * p.spacing_mm
     field = (p.rows + (2 if p.fibrils else 0)) * p.spacing_mm
     targets: list[Solid] = []

@@ -15,8 +15,12 @@ def document_sha256(document: Document) -> str:
 
     The order of materials counts, since it is the order of the path lengths.
     """
-    tree = document.model_dump(mode="json")
-    text = json.dumps(tree, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    return content_sha256(document.model_dump(mode="json"))
+
+
+def content_sha256(content: Any) -> str:
+    """Return the SHA-256 of plain JSON values, written without spaces and in their own order."""
+    text = json.dumps(content, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return hashlib.sha256(text.encode("ascii")).hexdigest()
 
 

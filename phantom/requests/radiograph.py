@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -15,6 +13,7 @@ from pydantic import Field
 from phantom import library
 from phantom.document import Model, told
 from phantom.document.base import Boolean
+from phantom.document.identity import content_sha256
 from phantom.encode import Format, check_held
 from phantom.errors import InvalidInputError, Problem
 from phantom.imaging import (
@@ -111,8 +110,7 @@ class RadiographPlan:
             "blind": self.blind,
             "truth": self.truth,
         }
-        canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
-        return hashlib.sha256(canonical.encode()).hexdigest()
+        return content_sha256(content)
 
     def _exposure(self) -> dict[str, object]:
         """Return what the detector's image depends on; nothing for an ideal one."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -13,7 +11,7 @@ from pydantic import Field
 
 from phantom.document import Model, told
 from phantom.document.base import Choice, Integer, Name
-from phantom.document.identity import document_sha256
+from phantom.document.identity import content_sha256, document_sha256
 from phantom.encode import Format, check_held
 from phantom.encode.content import COLOR
 from phantom.errors import Problem
@@ -91,8 +89,7 @@ class RenderPlan:
             "camera": self.camera.model_dump(mode="json"),
             **request,
         }
-        canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
-        return hashlib.sha256(canonical.encode()).hexdigest()
+        return content_sha256(content)
 
     def check_format(self, format: Format) -> None:
         """Refuse a file format that cannot hold colours, before anything is traced."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -12,6 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from phantom.document import told
+from phantom.document.identity import content_sha256
 from phantom.encode import Format
 from phantom.encode.content import COLOR
 from phantom.errors import Problem
@@ -85,8 +84,7 @@ class RenderPairPlan:
             "stereo": self.wish.model_dump(mode="json"),
             "eyes": [e.model_dump(mode="json") for e in (self.eyes.left, self.eyes.right)],
         }
-        canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
-        return hashlib.sha256(canonical.encode()).hexdigest()
+        return content_sha256(content)
 
     def render(
         self,

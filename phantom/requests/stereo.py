@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -14,6 +12,7 @@ from pydantic import Field, field_validator
 
 from phantom.document import told
 from phantom.document.base import Name, refuse
+from phantom.document.identity import content_sha256
 from phantom.encode import FORMATS, Format, Layout
 from phantom.errors import Problem
 from phantom.imaging import Presentation, StereoPair, Truth, ground_truth
@@ -114,8 +113,7 @@ class StereoPlan:
             "stereo": self.wish.model_dump(mode="json"),
             "eyes": [e.model_dump(mode="json") for e in (self.eyes.left, self.eyes.right)],
         }
-        canonical = json.dumps(content, separators=(",", ":"), allow_nan=False)
-        return hashlib.sha256(canonical.encode()).hexdigest()
+        return content_sha256(content)
 
     def render(
         self,

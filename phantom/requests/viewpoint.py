@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 from pydantic import ValidationError
 
 from phantom.document import Model, Point, Vector, told, validate_model
 from phantom.document.base import Choice
 from phantom.errors import InvalidInputError, Problem
-from phantom.geometry.vectors import box_corners
-from phantom.imaging import Detector, DetectorGrid, Preset, PresetName, View, place
-from phantom.imaging.camera import projection
-from phantom.imaging.placement import COVER_MARGIN
+from phantom.imaging import DetectorGrid, Preset, PresetName, View, covering, place
 
 if TYPE_CHECKING:
     from phantom.library import Technique
@@ -118,26 +113,7 @@ def _placed(phantom: Phantom, wanted: PlacedView, grid: DetectorGrid) -> View:
     except InvalidInputError as error:
         homes = {f"/detector/{name}": f"/detector/{name}" for name in size}
         raise InvalidInputError(_moved(error.problems, {**homes, "": "/view"})) from None
-    if grid.pitch_mm is not None:
-        return view
-    covering: Detector = view.detector.model_copy(
-        update={"pitch_mm": _covering_pitch_mm(phantom, view)}
-    )
-    return view.model_copy(update={"detector": covering})
-
-
-def _covering_pitch_mm(phantom: Phantom, unit_view: View) -> float:
-    """Return the pitch at which the phantom's box falls on a detector, from a view with pitch 1."""
-    detector = unit_view.detector
-    shadow = projection(unit_view).project(box_corners(phantom.bounds))
-    middle = np.array([detector.columns - 1, detector.rows - 1]) / 2
-    sides = np.array([detector.columns, detector.rows])
-    needed = float(np.max(np.abs(shadow - middle) * 2 / sides)) * COVER_MARGIN
-    if not math.isfinite(needed):
-        message = "the phantom reaches behind the source, so no detector covers it; give a pitch"
-        raise InvalidInputError([Problem("/detector/pitch_mm", "missing", message)])
-    digit = 10.0 ** (math.floor(math.log10(needed)) - 2)
-    return math.ceil(needed / digit) * digit
+    return view if grid.pitch_mm is not None else covering(phantom, view)
 
 
 def _moved(problems: tuple[Problem, ...], homes: Mapping[str, str]) -> list[Problem]:

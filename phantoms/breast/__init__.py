@@ -13,8 +13,6 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
-import numpy as np
-
 from phantom.document import (
     Anatomy,
     Cut,
@@ -33,11 +31,11 @@ from phantom.library import Abnormality, Entry, Technique
 from phantoms.breast.lesions import KINDS, lesions
 from phantoms.breast.parameters import SOURCES, Parameters, Sizes, of_person, sizes
 from phantoms.breast.tissue import Body, lobule_solid, lobules, strands
-from phantoms.parts import ellipsoid, sided
+from phantoms.draws import generator_of
+from phantoms.parts import ellipsoid, sided, sided_point
 
 MLO_DEG: Final = 45.0
 _BULGE: Final = 0.55  # half the thickness over the ellipsoid's semi-axis through it
-_MIRROR: Final = ((-1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
 
 
 def _body(parameters: Parameters, size: Sizes, inset_mm: float) -> Body:
@@ -94,13 +92,13 @@ def _place(parameters: Parameters, point: Point) -> Point:
             x * math.cos(turn) + z * math.sin(turn),
             z * math.cos(turn) - x * math.sin(turn),
         )
-    return (x if parameters.side == "right" else -x, y, z)
+    return sided_point((x, y, z), parameters.side)
 
 
 def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> Document:
     """Return the breast, the middle of its chest wall at the origin."""
     size = sizes(parameters)
-    generator = np.random.Generator(np.random.Philox(np.random.SeedSequence(parameters.seed)))
+    generator = generator_of(parameters.seed)
     outer, inner = _body(parameters, size, 0.0), _body(parameters, size, size.skin_mm)
     gland = [
         lobule_solid(f"lobule-{k + 1:03d}", lobule)

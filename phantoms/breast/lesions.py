@@ -19,6 +19,7 @@ from phantom.document.base import Coordinate, Integer
 from phantom.errors import InvalidInputError, Problem, pointer
 from phantom.library import Abnormality
 from phantoms.breast.tissue import Body
+from phantoms.draws import generator_of
 from phantoms.fields import count, millimetres
 
 if TYPE_CHECKING:
@@ -113,7 +114,7 @@ def lesions(body: Body, abnormalities: Sequence[Abnormality]) -> Iterator[Lesion
             body.semi_axes[1],
             body.half_mm,
         ] + np.array(abnormality.offset_mm)
-        generator = np.random.Generator(np.random.Philox(np.random.SeedSequence(abnormality.seed)))
+        generator = generator_of(abnormality.seed)
         if isinstance(abnormality, CalcificationCluster):
             reach = (abnormality.cluster_mm + 1.5 * abnormality.diameter_mm) / 2
             solids = _calcifications(name, abnormality, center, generator)
