@@ -7,14 +7,12 @@ from typing import Annotated
 import typer
 
 from phantom.cli.console import Bar, answer, reporting, say
-from phantom.cli.options import Abnormalities, AsJson, Settings, subject
+from phantom.cli.options import Abnormalities, AsJson, Settings, Target, subject
 from phantom.cli.radiograph import tell_defaults
 
 
 def make(
-    target: Annotated[
-        str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
-    ],
+    target: Target,
     output: Annotated[
         str,
         typer.Option(

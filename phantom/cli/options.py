@@ -7,6 +7,9 @@ from typing import Annotated
 
 import typer
 
+Target = Annotated[
+    str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Answer, and complain, in JSON.")]
 Settings = Annotated[
     list[str] | None,

@@ -11,7 +11,7 @@ import typer
 
 from phantom.cli.console import Bar, answer, reporting, say
 from phantom.cli.exposure import EXPOSURE, worded
-from phantom.cli.options import Abnormalities, AsJson, Settings, json_text, subject
+from phantom.cli.options import Abnormalities, AsJson, Settings, Target, json_text, subject
 
 if TYPE_CHECKING:
     from phantom.imaging import Radiograph
@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
 @worded(EXPOSURE)
 def make(
-    target: Annotated[
-        str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
-    ],
+    target: Target,
     output: Annotated[
         str | None,
         typer.Option(

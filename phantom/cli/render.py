@@ -11,7 +11,7 @@ import typer
 
 from phantom.cli.console import Bar, answer, reporting, say
 from phantom.cli.exposure import Word, worded
-from phantom.cli.options import Abnormalities, AsJson, Settings, json_text, subject
+from phantom.cli.options import Abnormalities, AsJson, Settings, Target, json_text, subject
 from phantom.cli.radiograph import tell_defaults
 
 RENDER: Final[Mapping[str, Word]] = {
@@ -36,9 +36,7 @@ RENDER: Final[Mapping[str, Word]] = {
 
 @worded(RENDER)
 def make(
-    target: Annotated[
-        str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
-    ],
+    target: Target,
     output: Annotated[
         str | None,
         typer.Option(

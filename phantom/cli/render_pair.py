@@ -11,16 +11,14 @@ import typer
 
 from phantom.cli.console import reporting
 from phantom.cli.exposure import worded
-from phantom.cli.options import Abnormalities, AsJson, Settings, json_text, subject
+from phantom.cli.options import Abnormalities, AsJson, Settings, Target, json_text, subject
 from phantom.cli.pairs import EYES, make_pair
 from phantom.cli.render import RENDER
 
 
 @worded({**RENDER, **EYES})
 def make(
-    target: Annotated[
-        str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
-    ],
+    target: Target,
     output: Annotated[
         str | None,
         typer.Option(

@@ -11,7 +11,7 @@ import typer
 
 from phantom.cli.console import reporting
 from phantom.cli.exposure import EXPOSURE, Word, worded
-from phantom.cli.options import Abnormalities, AsJson, Settings, subject
+from phantom.cli.options import Abnormalities, AsJson, Settings, Target, subject
 from phantom.cli.pairs import EYES, make_pair
 from phantom.cli.radiograph import asked
 
@@ -25,9 +25,7 @@ STEREO: Final[Mapping[str, Word]] = {
 
 @worded(STEREO)
 def make(
-    target: Annotated[
-        str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
-    ],
+    target: Target,
     output: Annotated[
         str | None,
         typer.Option(

@@ -10,7 +10,7 @@ import typer
 
 from phantom.cli.drawing import draw
 from phantom.cli.exposure import Word, worded
-from phantom.cli.options import Abnormalities, AsJson, Settings
+from phantom.cli.options import Abnormalities, AsJson, Settings, Target
 from phantom.cli.render import RENDER
 
 _LIGHT = ("lighting", "shadows", "samples_per_pixel")
@@ -27,9 +27,7 @@ WIREFRAME: Final[Mapping[str, Word]] = {
 
 @worded(WIREFRAME)
 def make(
-    target: Annotated[
-        str, typer.Argument(metavar="NAME|FILE", help="A phantom of the library, or a document.")
-    ],
+    target: Target,
     output: Annotated[
         str | None,
         typer.Option(
