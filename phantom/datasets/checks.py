@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
 from typing import Any, Final
@@ -95,9 +96,29 @@ def _counts(design: Design) -> Iterator[Problem]:
     if design.exclusive and shares > 1.0 + ROUNDING:
         message = f"found prevalences that add up to {shares:g}; expected 1 at most, one a case"
         yield Problem("/abnormalities", "bad_sum", message)
+    elif design.exact_prevalence:
+        yield from _whole(design)
     if design.twins and not any(asked.prevalence > 0 for asked in design.abnormalities):
         message = "found twins without any abnormality; expected some prevalence above 0"
         yield Problem("/twins", "no_effect", message)
+
+
+def _whole(design: Design) -> Iterator[Problem]:
+    """Yield what cannot be exact: prevalences that are no whole number of cases."""
+    cases = design.people * design.cases_per_person
+    if not design.abnormalities:
+        message = "found true without any abnormality; expected some, or false"
+        yield Problem("/exact_prevalence", "no_effect", message)
+    for k, asked in enumerate(design.abnormalities):
+        number = asked.prevalence * cases
+        if abs(number - round(number)) > ROUNDING:
+            below, above = math.floor(number) / cases, math.ceil(number) / cases
+            message = (
+                f"found {asked.prevalence!r}, which is {number:.10g} of {cases} cases;"
+                f" expected a whole number of them, as {below!r} or {above!r} give,"
+                " or exact_prevalence false"
+            )
+            yield Problem(f"/abnormalities/{k}/prevalence", "not_whole", message)
 
 
 def _extras(design: Design) -> Iterator[Problem]:
@@ -181,9 +202,8 @@ def expected_bytes(design: Design, planned: RadiographPlan) -> int:
     if design.stereo is not None and design.stereo.mono != "single":
         picture *= 2.0
     if design.twins:
-        healthy = 1.0
-        for asked in design.abnormalities:
-            healthy *= 1.0 - asked.prevalence
+        shares = [asked.prevalence for asked in design.abnormalities]
+        healthy = 1.0 - sum(shares) if design.exclusive else math.prod(1.0 - s for s in shares)
         picture *= 2.0 - healthy
     if kept.masks:
         picture += BYTES_A_PIXEL["mask"] * pixels

@@ -63,7 +63,10 @@ class DrawnAbnormality(Model):
     """Something that is wrong with some of the cases."""
 
     type: Annotated[Name, told("Type", "none", "One of the phantom's abnormalities.")]
-    prevalence: Annotated[Fraction, told("Prevalence", "1", "Share of the cases that have it.")]
+    prevalence: Annotated[
+        Fraction,
+        told("Prevalence", "1", "Chance that a case has it, or the share of the cases that do."),
+    ]
     parameters: Annotated[
         dict[Name, Value],
         told("Parameters", "none", "Each a value, or a distribution drawn anew for each case."),
@@ -150,6 +153,15 @@ class Design(Model):
     ] = ()
     exclusive: Annotated[
         Boolean, told("Exclusive", "none", "True where no case has two of them.")
+    ] = False
+    exact_prevalence: Annotated[
+        Boolean,
+        told(
+            "Exact prevalence",
+            "none",
+            "True where each prevalence is a share of the cases to the case, and of each split's"
+            " as near as whole cases allow; false where it is the chance that a case has it.",
+        ),
     ] = False
     people: Annotated[_Count, told("People", "1", "How many.")]
     cases_per_person: Annotated[

@@ -10,8 +10,8 @@ from typing import Any
 from phantom.datasets.checks import check, check_room, warnings
 from phantom.datasets.design import Design
 from phantom.datasets.making import Maker
-from phantom.datasets.places import images_of_splits, people_of_splits, place, units
-from phantom.datasets.sampling import present
+from phantom.datasets.places import images_of_splits, people_of_splits, units
+from phantom.datasets.presence import cases_with
 from phantom.datasets.storage import Storage
 from phantom.requests.limits import Limits
 from phantom.tracing import default_workers
@@ -94,18 +94,12 @@ def forecast(
         made = Maker(design, threads=1).make(number)
         times.append(clock() - begun)
         sizes.append(sum(map(len, made.files.values())))
-    cases = design.people * design.cases_per_person
-    abnormal = dict.fromkeys((asked.type for asked in design.abnormalities), 0)
-    if abnormal:
-        for case in range(cases):
-            for k in present(design, place(design, case * len(design.views))):
-                abnormal[design.abnormalities[k].type] += 1
     people, count = people_of_splits(design), workers or default_workers()
     detector = planned.view.detector
     return Forecast(
         images=design.images,
         people=design.people,
-        abnormal=abnormal,
+        abnormal=cases_with(design),
         splits={n: (people[n], len(found)) for n, found in images_of_splits(design).items()},
         columns=detector.columns,
         rows=detector.rows,

@@ -2,7 +2,8 @@
 
 Everything is a function of (design, seed, i). Each number comes from a stream of its own, whose
 key starts with the person and says what is drawn (`phantom.datasets.draws`); so a design with one
-more parameter, view or abnormality draws all else as before.
+more parameter, view or abnormality draws all else as before. Where prevalence is exact, which cases
+have an abnormality is one order of all cases of a split (`phantom.datasets.presence`).
 
 What is drawn may not fit: a finding too large for a thin person. It is then drawn again, from a
 stream whose key counts the tries: first the finding, and the person only where the healthy phantom
@@ -17,8 +18,9 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from phantom import library
 from phantom.datasets.design import Design, DrawnPhantom
-from phantom.datasets.draws import Draw, chance, drawn, stream, word
+from phantom.datasets.draws import Draw, drawn, stream, word
 from phantom.datasets.places import Place
+from phantom.datasets.presence import present
 from phantom.errors import InvalidInputError
 from phantom.library import Person, Population
 from phantom.requests.words import WORDS
@@ -26,8 +28,8 @@ from phantom.requests.words import WORDS
 if TYPE_CHECKING:
     from phantom.scene import Phantom
 
-PERSON, PARAMETERS, PRESENCE, FINDING, EXPOSURE = range(5)
-"""What is drawn: the second number of every key."""
+PERSON, PARAMETERS, FINDING, EXPOSURE = 0, 1, 3, 4
+"""What is drawn: the second number of a key; 2 and 5 are of `phantom.datasets.presence`."""
 
 TRIES: Final = 8
 """Of a person, and of what is wrong with a case, before the image is given up."""
@@ -73,20 +75,6 @@ def healthy(design: Design, person: int, attempt: int = 0) -> Subject:
     for name, value in design.phantom.parameters.items():
         found[name] = drawn(value, seed, person, PARAMETERS, attempt, word(name))
     return Subject(who, found)
-
-
-def present(design: Design, at: Place) -> tuple[int, ...]:
-    """Return which of the design's abnormalities a case has, by their numbers."""
-    shares = [asked.prevalence for asked in design.abnormalities]
-    key = (design.seed, at.person, PRESENCE, at.case)
-    if not design.exclusive:
-        return tuple(k for k, share in enumerate(shares) if chance(*key, k) < share)
-    left = chance(*key) if shares else 1.0
-    for k, share in enumerate(shares):
-        left -= share
-        if left < 0.0:
-            return (k,)
-    return ()
 
 
 def findings(design: Design, at: Place, attempt: int = 0) -> tuple[Mapping[str, Any], ...]:

@@ -51,6 +51,11 @@ UNIFORM = {"type": "uniform", "low": 1.0, "high": 2.0}
             {"phantom": {"name": "lesioned", "parameters": {"colour": 3}}},
             "/phantom/parameters/colour",
         ),
+        (
+            {"exact_prevalence": True, "abnormalities": [{"type": "nodule", "prevalence": 0.33}]},
+            "/abnormalities/0/prevalence",
+        ),
+        ({"exact_prevalence": True}, "/exact_prevalence"),
         ({"splits": {"train": 0.8, "test": 0.1}}, "/splits"),
         ({"splits": {"train": 8, "test": 1}}, "/splits"),
         ({"splits": {"Train": 1.0}}, "/splits/Train"),

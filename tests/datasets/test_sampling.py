@@ -9,7 +9,8 @@ import pytest
 
 from phantom import library
 from phantom.datasets.places import images_of_splits, people_of_splits, place, units
-from phantom.datasets.sampling import TRIES, case, exposure, findings, healthy, present
+from phantom.datasets.presence import present
+from phantom.datasets.sampling import TRIES, case, exposure, findings, healthy
 
 RADIUS = {"type": "uniform", "low": 1.0, "high": 6.0}
 
