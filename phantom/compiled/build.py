@@ -157,8 +157,7 @@ def build(document: doc.Document) -> Compiled:
 
 def _box(leaf: PlacedLeaf) -> Floats:
     if isinstance(leaf.shape, Cylinder):
-        points, corners = leaf.shape.outline, leaf.shape.boxes_corners()
-        box = np.stack([points.min(axis=0), points.max(axis=0)])
+        box, corners = leaf.shape.sampled_box(), leaf.shape.boxes_corners()
         # What a sample may miss between its points, and never beyond the segments' own boxes.
         pad = 1e-3 * float(np.ptp(box, axis=0).min())
         return np.stack(

@@ -58,11 +58,35 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Rings:
+    """A sample of a part's surface: ``middle + spread @ phi`` for the phi of each section."""
+
+    middle: Floats  # (n, 3) mm
+    spread: Floats  # (n, 3, 2) mm
+    phi: Floats  # (n or 1, P, 2) unit coordinates
+
+    def moved(self, to: Similarity) -> Rings:
+        """Return the sample moved by a similarity."""
+        turned = to.scale * np.einsum("ij,njk->nik", to.rotation, self.spread)
+        return Rings(to.points(self.middle), turned, self.phi)
+
+    def box(self) -> Floats:
+        """Return the box (2, 3) of all points."""
+        reach = self.spread @ np.swapaxes(self.phi, 1, 2)
+        return np.stack(
+            [
+                (self.middle + reach.min(axis=2)).min(axis=0),
+                (self.middle + reach.max(axis=2)).max(axis=0),
+            ]
+        )
+
+
+@dataclass(frozen=True)
 class Cylinder:
-    """A generalized cylinder in mm; ``outline`` is a sample of its surface."""
+    """A generalized cylinder in mm, and samples of the surface of each part."""
 
     parts: tuple[Part, ...]
-    outline: Floats  # (P, 3) points of the surface
+    rings: tuple[Rings, ...]
     planes: Halfspaces
     warnings: tuple[str, ...]
 
@@ -70,10 +94,15 @@ class Cylinder:
         """Return the cylinder moved by a similarity."""
         return Cylinder(
             tuple(part.moved(to) for part in self.parts),
-            to.points(self.outline),
+            tuple(rings.moved(to) for rings in self.rings),
             self.planes.moved(to),
             self.warnings,
         )
+
+    def sampled_box(self) -> Floats:
+        """Return the box (2, 3) of the samples of the surface."""
+        boxes = np.array([rings.box() for rings in self.rings])
+        return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
     def boxes_corners(self) -> Floats:
         """Return the corners of all segment boxes: their hull holds the solid."""
@@ -102,45 +131,42 @@ def cylinder(leaf: doc.GeneralizedCylinder, scale: float) -> tuple[Cylinder | No
             raise RefusalError(
                 "/cuts", "too_many", f"{len(cuts.offsets)} cuts; expected at most {MAX_CUTS}"
             )
-        parts, outlines, traced = [], [], []
+        parts, samples, traced = [], [], []
         for shape in shapes:
             check_closing(shape)
-            part, outline = _part(shape, tolerance)
+            part, rings = _part(shape, tolerance)
             parts.append(part)
-            outlines.append(outline)
+            samples.append(rings)
             traced.append(Traced(shape, part.segments, part.tables))
         check_global_overlap(traced)
-        return Cylinder(tuple(parts), np.concatenate(outlines), cuts, shapes[0].warnings), []
+        return Cylinder(tuple(parts), tuple(samples), cuts, shapes[0].warnings), []
     except RefusalError as refusal:
         return None, [refusal.problem]
 
 
-def _part(shape: Shape, tolerance: float) -> tuple[Part, Floats]:
+def _part(shape: Shape, tolerance: float) -> tuple[Part, Rings]:
     """Cut a shape into segments, tabulate its contour and bound what the tracing needs."""
     cut = segments(shape, tolerance)
-    outline, stretch = _outline(shape, cut.knots)
+    rings = _rings(shape, cut.knots)
+    stretch = float(np.linalg.norm(rings.spread, ord=2, axis=(1, 2)).max())
     share = (1 - tolerances.FIT_SHARE) * tolerance / stretch
     if isinstance(shape, ChangingShape):
         tables = changing_tables(shape, cut.knots, share)
         bounds = hessian_bounds(cut, [ChangingSection(table) for table in tables])
-        return Part(cut, bounds, tuple(tables)), outline
+        return Part(cut, bounds, tuple(tables)), rings
     count = len(cut.origins)
     if shape.contour.outline is None:
-        return Part(cut, hessian_bounds(cut, CircleSection()), (None,) * count), outline
+        return Part(cut, hessian_bounds(cut, CircleSection()), (None,) * count), rings
     table = star_table(shape.contour.outline, share)
-    return Part(cut, hessian_bounds(cut, StarSection(table)), (table,) * count), outline
+    return Part(cut, hessian_bounds(cut, StarSection(table)), (table,) * count), rings
 
 
-def _outline(shape: Shape, knots: Floats) -> tuple[Floats, float]:
-    """Sample the surface, and find the largest stretch from unit coordinates to mm."""
+def _rings(shape: Shape, knots: Floats) -> Rings:
+    """Sample the surface at nine places of each segment, both ends included."""
     fractions = np.linspace(0, 1, 9)
     u = (knots[:-1, None] + fractions * np.diff(knots)[:, None]).ravel()
     piece = np.clip(
         np.searchsorted(shape.curve.breaks, u, side="right") - 1, 0, len(shape.curve.breaks) - 2
     )
     at = shape.sections(u, piece)
-    phi = shape.points(u, 256)
-    phi = np.broadcast_to(phi, (len(u), *phi.shape[1:]))
-    points = at.middle[:, None] + phi @ np.swapaxes(at.spread, 1, 2)
-    stretch = float(np.linalg.norm(at.spread, ord=2, axis=(1, 2)).max())
-    return points.reshape(-1, 3), stretch
+    return Rings(at.middle, at.spread, shape.points(u, 256))

@@ -37,10 +37,14 @@ class Interval:
     def __rsub__(self, other: float) -> Interval:
         return as_interval(other) - self
 
-    def __mul__(self, other: Interval | float) -> Interval:
+    def __mul__(self, other: Interval | float | Floats) -> Interval:
         if not isinstance(other, Interval):
             a, b = self.low * other, self.high * other
             return Interval(np.minimum(a, b), np.maximum(a, b))
+        if self.low is self.high:
+            return other * self.low
+        if other.low is other.high:
+            return self * other.low
         products = (
             self.low * other.low,
             self.low * other.high,

@@ -89,13 +89,10 @@ def segments(shape: Shape, tolerance_mm: float) -> Segments:
     start, end, piece = breaks[:-1], breaks[1:], pieces
     accepted: list[_Candidates] = []
     total = 0
+    limit_mm = tolerance_mm * tolerances.FIT_SHARE
     for _ in range(60):
-        trial = _fit(shape, start, end, piece)
-        good = (
-            (trial.error_mm <= tolerance_mm * tolerances.FIT_SHARE)
-            & (trial.body_margin >= -1e-7)
-            & (trial.j_min > 0)
-        )
+        trial = _fit(shape, start, end, piece, limit_mm)
+        good = (trial.error_mm <= limit_mm) & (trial.body_margin >= -1e-7) & (trial.j_min > 0)
         accepted.append(trial.where(good))
         total += int(good.sum())
         if good.all():
@@ -108,6 +105,7 @@ def segments(shape: Shape, tolerance_mm: float) -> Segments:
         start, end = np.concatenate([rest.start, middle]), np.concatenate([middle, rest.end])
         piece = np.concatenate([rest.piece, rest.piece])
     worst = int(np.argmax(rest.error_mm))
+    rest = _fit(shape, rest.start, rest.end, rest.piece)
     raise RefusalError(
         "",
         "not_traceable",
@@ -182,8 +180,13 @@ def _support(hull: Hull, directions: Floats) -> Floats:
     return np.asarray(reach.reshape(directions.shape[:-1]) + hull.margin * length)
 
 
-def _fit(shape: Shape, start: Floats, end: Floats, piece: Ints) -> _Candidates:
-    """Fit a batch of segments and measure what decides on them."""
+def _fit(
+    shape: Shape, start: Floats, end: Floats, piece: Ints, limit_mm: float = np.inf
+) -> _Candidates:
+    """Fit a batch of segments and measure what decides on them.
+
+    Of those that are off by more than the limit only this is measured.
+    """
     count, nodes = len(start), lobatto_nodes()
     middle, half = 0.5 * (start + end), 0.5 * (end - start)
     u = middle[:, None] + half[:, None] * nodes
@@ -204,13 +207,20 @@ def _fit(shape: Shape, start: Floats, end: Floats, piece: Ints) -> _Candidates:
         axis=-1,
     )
     polynomials = np.einsum("pn,knv->kvp", interpolation_matrix(), values)
-    hull = _hulls(shape, start, end)
-    body = _body(at, origins, grid)
-    axes = _axes(at, grid)
-    boxes = _boxes(body, axes, hull)
-    margin = _body_margin(body, values, hull)
     error = _displacement(shape, start, end, piece, origins, polynomials)
-    j_min = _smallest_j(polynomials, axes, boxes, values)
+    # What is too far off is halved whatever else it does.
+    near = error <= limit_mm
+    axes, boxes = np.zeros((count, 3, 3)), np.zeros((count, 3, 2))
+    margin, j_min = np.full(count, -np.inf), np.full(count, -np.inf)
+    if near.any():
+        at = Sections(*(value[np.repeat(near, len(nodes))] for value in vars(at).values()))
+        grid = (int(near.sum()), len(nodes))
+        hull = _hulls(shape, start[near], end[near])
+        body = _body(at, origins[near], grid)
+        axes[near] = _axes(at, grid)
+        boxes[near] = _boxes(body, axes[near], hull)
+        margin[near] = _body_margin(body, values[near], hull)
+        j_min[near] = _smallest_j(polynomials[near], axes[near], boxes[near], values[near])
     return _Candidates(start, end, piece, origins, polynomials, axes, boxes, error, margin, j_min)
 
 
