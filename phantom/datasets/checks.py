@@ -18,6 +18,7 @@ from phantom.document import Model, validate_model
 from phantom.document.words import arranged
 from phantom.errors import InvalidInputError, Problem, pointer, prefixed
 from phantom.imaging.stereo import placed
+from phantom.imaging.visibility import check_display
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest
 
@@ -69,6 +70,8 @@ def _first(design: Design, limits: Limits | None) -> RadiographPlan:
             placed(of.phantom, planned.view, design.stereo)
         if design.outputs.form == "presentation" and planned.presentation.mode == "window":
             _ = planned.presentation.window
+        if design.outputs.visibility and planned.presentation.gsdf is not None:
+            check_display(planned.presentation)
         plans.append(planned)
     return plans[0]
 
@@ -98,9 +101,11 @@ def _counts(design: Design) -> Iterator[Problem]:
         yield Problem("/abnormalities", "bad_sum", message)
     elif design.exact_prevalence:
         yield from _whole(design)
-    if design.twins and not any(asked.prevalence > 0 for asked in design.abnormalities):
-        message = "found twins without any abnormality; expected some prevalence above 0"
-        yield Problem("/twins", "no_effect", message)
+    if not any(asked.prevalence > 0 for asked in design.abnormalities):
+        needing = {"/twins": design.twins, "/outputs/visibility": design.outputs.visibility}
+        for path in (path for path, wanted in needing.items() if wanted):
+            message = "found true without any abnormality; expected some prevalence above 0"
+            yield Problem(path, "no_effect", message)
 
 
 def _whole(design: Design) -> Iterator[Problem]:

@@ -102,6 +102,15 @@ class Outputs(Model):
     documents: Annotated[
         Boolean, told("Documents", "none", "The phantom document of every case.")
     ] = True
+    visibility: Annotated[
+        Boolean,
+        told(
+            "Visibility",
+            "none",
+            "How well what is wrong is seen, beside the same picture without it; abnormal cases"
+            " take some four times as long.",
+        ),
+    ] = False
     parquet: Annotated[
         Boolean, told("Parquet", "none", "An index of the whole set; needs the extra tables.")
     ] = False

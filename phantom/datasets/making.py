@@ -8,26 +8,27 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from phantom import library
 from phantom.datasets.contact import shown, thumbnail
 from phantom.datasets.design import Design, DrawnPhantom, view_name
+from phantom.datasets.knowledge import annotated, best_seen, located, mask
 from phantom.datasets.names import file_name
 from phantom.datasets.places import Place, place
 from phantom.datasets.sampling import Case, Subject, case, exposure, request
 from phantom.document import validate_model
 from phantom.encode import archive, encode, npy, png, truth_files
-from phantom.encode.coco import coco
 from phantom.encode.coding import Coding, coding
 from phantom.encode.content import Content
 from phantom.imaging import (
     Radiograph,
     StereoPair,
     Truth,
+    Visibility,
     document_sha256,
     ground_truth,
     radiograph,
+    visibility,
 )
 from phantom.imaging.stereo import EyePicture, pair_of
 from phantom.requests.limits import Limits
@@ -128,7 +129,8 @@ class Maker:
         of = self.case(at)
         planned = self.plan(at, of)
         shot = self.shoot(planned)
-        return self.kept(at, of, planned, shot, self.tell(planned, shot), self.twin(of, shot))
+        twin = self.twin(of, shot) if self.design.twins else None
+        return self.kept(at, of, planned, shot, self.tell(planned, shot), twin)
 
     def case(self, at: Place) -> Case:
         """Return the case of an image."""
@@ -212,6 +214,25 @@ class Maker:
             return Shot(left, None if shot.right is None else left)
         return Shot(left, again(shot.right))
 
+    def seen(self, of: Case, planned: RadiographPlan, shot: Shot) -> tuple[Visibility, ...]:
+        """Return how well each finding is seen, by the left eye of a pair; none of healthy cases.
+
+        What a display shows counts where the presentation has one.
+        """
+        if of.twin is None or not self.design.outputs.visibility:
+            return ()
+        shown_as, image = planned.presentation, shot.left
+        return visibility(
+            of.phantom,
+            of.twin,
+            image.view,
+            image.beam,
+            acquisition=image.acquisition,
+            noise=image.noise,
+            presentation=None if shown_as.gsdf is None else shown_as,
+            workers=self.threads,
+        )
+
     def kept(
         self,
         at: Place,
@@ -244,7 +265,7 @@ class Maker:
         if kept.documents and at.view == 0:
             tree = document.model_dump(mode="json", exclude_none=True)
             files["document.json"] = f"{text(tree)}\n".encode()
-        row = self._row(at, of, shot, first)
+        row = self._row(at, of, planned, shot, first)
         small = thumbnail(made, design.quantity) if at.number in shown(design) else None
         return Made(at, files, row, annotations, small)
 
@@ -272,10 +293,12 @@ class Maker:
         self,
         at: Place,
         of: Case,
+        planned: RadiographPlan,
         shot: Shot,
         truth: Truth | None,
     ) -> dict[str, Any]:
         design, made = self.design, shot.left
+        seen = self.seen(of, planned, shot)
         recommended = "ap"
         if isinstance(design.phantom, DrawnPhantom):
             recommended = library.entry(design.phantom.name).views[0]
@@ -296,7 +319,9 @@ class Maker:
         row |= exposure(design, at)
         row["parameters"] = text(of.phantom.document.parameters)
         row["abnormalities"] = text(wrong)
-        row["findings"] = text(located(of.phantom, truth))
+        row["findings"] = text(located(of.phantom, truth, seen))
+        if design.outputs.visibility:
+            row |= best_seen(design, planned, seen)
         row["columns"], row["rows"] = made.view.detector.columns, made.view.detector.rows
         row["pitch_mm"] = made.view.detector.pitch_xy_mm[0]
         row["open_field"] = made.open_field
@@ -316,47 +341,6 @@ def linear(made: Radiograph, quantity: str) -> Coding:
         return Coding(quantity, LINEAR_CODES / made.open_field)
     unit = made.signal_unit if quantity == "signal" else "1"
     return coding(quantity, np.zeros(0), unit)
-
-
-def mask(truth: Truth, *, of_findings: bool) -> NDArray[np.uint8]:
-    """Return 255 where something of the findings, or else of any named leaf, is seen."""
-    names = {name for _, leaves in truth.findings for name in leaves}
-    found = np.zeros(truth.size[::-1], dtype=np.bool_)
-    for leaf in truth.leaves:
-        if leaf.box is not None and (not of_findings or leaf.name in names):
-            found |= leaf.mask
-    return found.astype(np.uint8) * np.uint8(255)
-
-
-def annotated(truth: Truth) -> tuple[Mapping[str, Any], ...]:
-    """Return the leaves that are seen, as annotations of COCO without their numbers."""
-    tree = coco(truth.leaves, truth.size, "", truth.centroids_px)
-    names = {c["id"]: (c["name"], c["supercategory"]) for c in tree["categories"]}
-    finding = {leaf: name for name, leaves in truth.findings for leaf in leaves}
-    found = []
-    for annotation in tree["annotations"]:
-        name, material = names[annotation["category_id"]]
-        told = {k: v for k, v in annotation.items() if not k.endswith("id")}
-        own = {"finding": finding[name]} if name in finding else {}
-        found.append({"name": name, "material": material, **told, **own})
-    return tuple(found)
-
-
-def located(phantom: Phantom, truth: Truth | None) -> list[dict[str, Any]]:
-    """Return what a reader should find, with its place in the picture where that is known."""
-    found = []
-    for finding in phantom.document.findings:
-        told = finding.model_dump(mode="json", exclude_none=True)
-        boxes = []
-        if truth is not None:
-            leaves = [leaf for leaf in truth.leaves if leaf.name in finding.leaves]
-            boxes = [leaf.box for leaf in leaves if leaf.box is not None]
-        if boxes:
-            left, top = min(b.first_column for b in boxes), min(b.first_row for b in boxes)
-            right, bottom = max(b.last_column for b in boxes), max(b.last_row for b in boxes)
-            told["bbox"] = [left, top, right - left + 1, bottom - top + 1]
-        found.append(told)
-    return found
 
 
 def text(tree: object) -> str:

@@ -136,7 +136,7 @@ class Case(NamedTuple):
     phantom
         Ready to be X-rayed.
     twin
-        The phantom with nothing wrong; None where nothing is, or where no twins are wanted.
+        The phantom with nothing wrong; None where nothing is, or where nothing is held against it.
     """
 
     subject: Subject
@@ -169,7 +169,7 @@ def case(design: Design, at: Place, prepared: Callable[[Subject], Phantom]) -> C
             except InvalidInputError as error:
                 refusal = error
             else:
-                wanted = design.twins and bool(subject.abnormalities)
+                wanted = (design.twins or design.outputs.visibility) and subject.abnormalities
                 return Case(subject, phantom, prepared(plain) if wanted else None)
             if not subject.abnormalities or not _is_sound(plain, prepared):
                 break

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from phantom.datasets.checks import check
 from phantom.datasets.design import Design
-from phantom.datasets.making import Maker, mask
+from phantom.datasets.knowledge import mask
+from phantom.datasets.making import Maker
 from phantom.datasets.opening import of_tree, read_design
 from phantom.datasets.places import images_of_splits, place
 from phantom.errors import InvalidInputError, Problem

@@ -7,7 +7,7 @@ differs: so what is measured is the finding, and not the ribs behind it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 BoolArray = NDArray[np.bool_]
 
+LEAST_BOX: Final = 16
+"""Pixels each way that noise is measured over, as far as the field goes: 256 tell it to 4 %."""
+
 
 class Visibility(NamedTuple):
     """How well one finding can be seen.
@@ -38,11 +41,11 @@ class Visibility(NamedTuple):
         How many pixels its leaves cover.
     contrast
         Mean over these of (signal - twin's) / twin's, without noise; below 0 where the finding
-        takes photons away. None where it covers no pixel.
+        takes photons away. None where it covers no pixel that the twin has any signal in.
     contrast_to_noise
         Mean over these of signal - twin's, over the standard deviation of the noise in the box
-        around them; of one pixel, so that it does not grow with the finding's size. None where
-        there is no noise, or where the finding covers no pixel.
+        around them, of `LEAST_BOX` pixels each way or more; of one pixel, so that it does not grow
+        with the finding's size. None where there is no noise, or where the finding covers no pixel.
     jnd
         Mean over these of the just-noticeable differences between picture and twin on a display,
         positive where the finding is brighter; None where no display is given.
@@ -84,9 +87,8 @@ def visibility(
     InvalidInputError
         The presentation has no display, or its greys depend on the image (``/presentation``).
     """
-    if presentation is not None and (presentation.gsdf is None or presentation.mode != "window"):
-        message = "expected a window and a gsdf, so that both pictures have one scale of greys"
-        raise InvalidInputError([Problem("/presentation", "missing", message)])
+    if presentation is not None:
+        check_display(presentation)
 
     def trace(of: Phantom, exposed: Acquisition | None) -> Radiograph:
         return radiograph(
@@ -115,6 +117,19 @@ def visibility(
     return tuple(found)
 
 
+def check_display(presentation: Presentation) -> None:
+    """Refuse a presentation in which just-noticeable differences mean nothing.
+
+    Raises
+    ------
+    InvalidInputError
+        It has no display, or its greys depend on the image (``/presentation``).
+    """
+    if presentation.gsdf is None or presentation.mode != "window":
+        message = "expected a window and a gsdf, so that both pictures have one scale of greys"
+        raise InvalidInputError([Problem(presentation.place, "missing", message)])
+
+
 def _quiet(acquisition: Acquisition | None) -> Acquisition | None:
     """Return the exposure without its noise."""
     if acquisition is None:
@@ -133,7 +148,9 @@ def _seen(
 ) -> Visibility:
     if not mask.any():
         return Visibility(name, 0, None, None, None)
-    change = (seen.signal - usual.signal)[mask]
+    before = usual.signal[mask]
+    change = seen.signal[mask] - before
+    some = before > 0.0
     spread = None if grain is None else float(np.std(grain[_box(mask)]))
     jnd = None
     if presentation is not None:
@@ -145,7 +162,7 @@ def _seen(
     return Visibility(
         name,
         int(np.count_nonzero(mask)),
-        float(np.mean(change / usual.signal[mask])),
+        float(np.mean(change[some] / before[some])) if some.any() else None,
         float(change.mean() / spread) if spread else None,
         jnd,
     )
@@ -153,4 +170,12 @@ def _seen(
 
 def _box(mask: BoolArray) -> tuple[slice, slice]:
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    return _wide(rows, mask.shape[0]), _wide(columns, mask.shape[1])
+
+
+def _wide(at: NDArray[np.intp], size: int) -> slice:
+    """Return the range of these pixels, widened to both sides where it is too narrow."""
+    begin, end = int(at[0]), int(at[-1]) + 1
+    missing = max(0, LEAST_BOX - (end - begin))
+    begin = max(0, min(begin - missing // 2, size - LEAST_BOX))
+    return slice(begin, max(begin + LEAST_BOX, end))

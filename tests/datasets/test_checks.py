@@ -66,6 +66,18 @@ UNIFORM = {"type": "uniform", "low": 1.0, "high": 2.0}
         ({"vary": {"kvp": {**UNIFORM}}}, "/vary/kvp"),
         ({"vary": {"colour": 3}}, "/vary/colour"),
         ({"twins": True}, "/twins"),
+        ({"outputs": {"visibility": True}}, "/outputs/visibility"),
+        (
+            {
+                "abnormalities": [{"type": "nodule", "prevalence": 0.5}],
+                "outputs": {"visibility": True},
+                "presentation": {
+                    "mode": "stretch",
+                    "gsdf": {"l_min_cd_m2": 1.0, "l_max_cd_m2": 300.0},
+                },
+            },
+            "/presentation",
+        ),
         ({"phantom": {"name": "sphere"}, "population": {"female": 0.5}}, "/population"),
         ({"views": []}, "/views"),
         ({"outputs": {"form": "tiff"}}, "/outputs/form"),

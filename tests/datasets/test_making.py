@@ -73,6 +73,67 @@ def test_the_mask_is_the_shadow_of_the_finding(design):
     ]
 
 
+def _chords(radius_mm, x_mm):
+    """Chords of a ball on the axis' plane over the pixels of 0.5 mm that it covers."""
+    at = (np.arange(128) - 63.5) * 0.5
+    x, z = np.meshgrid(at, at)
+    rays = np.stack([x, np.full_like(x, 500.0), z], axis=-1)
+    rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
+    distance = np.linalg.norm(np.cross(rays, [x_mm, 440.0, 0.0]), axis=-1)
+    return 2.0 * np.sqrt(radius_mm**2 - distance[distance < radius_mm] ** 2)
+
+
+def test_visibility_is_what_the_chords_take_away(design):
+    """A ball of 0.06 / mm in a slab of 0.02 / mm, 40 mm thick; P-values of 1022 JNDs in all."""
+    display = {"l_min_cd_m2": 0.05, "l_max_cd_m2": 3993.404, "l_ambient_cd_m2": 0.0}
+    wanted = design(
+        population=None,
+        detector={"columns": 128, "pitch_mm": 0.5},
+        acquisition={"detector": {"response": "photon_counting"}},
+        presentation={"bits": 16, "gsdf": display},
+        abnormalities=[{**NODULE, "prevalence": 0.5}],
+        outputs={"visibility": True},
+    )
+    maker = Maker(wanted)
+    rows = [maker.make(number).row for number in range(6)]
+    ill, well = (next(row for row in rows if row["label"] == k) for k in (1, 0))
+    chords = _chords(5.0, 6.0)
+    taken = np.exp(-0.04 * chords) - 1.0
+    assert ill["contrast"] == pytest.approx(taken.mean(), rel=1e-9)
+    # A counting detector's noise is the root of what comes through the slab.
+    photons = ill["open_field"] * np.exp(-0.8)
+    expected = taken.mean() * np.sqrt(photons)
+    assert ill["contrast_to_noise"] == pytest.approx(expected, rel=0.15)
+    # The phantom's window spans line integrals of 1.6.
+    assert ill["jnd"] == pytest.approx(1022 * 0.04 * chords.mean() / 1.6, rel=2e-3)
+    (found,) = json.loads(ill["findings"])
+    assert found["pixels"] == len(chords)
+    assert found["contrast"] == ill["contrast"]
+    assert [well[name] for name in ("contrast", "contrast_to_noise", "jnd")] == [0.0] * 3
+    assert len({tuple(row) for row in rows}) == 1
+
+
+def test_of_several_findings_the_row_tells_the_one_that_is_seen_best(design):
+    void = {"type": "void", "prevalence": 1.0, "parameters": {"radius_mm": 3.0}}
+    small = {**NODULE, "parameters": {"name": "small", "radius_mm": 1.0, "x_mm": -8.0}}
+    side = {"columns": 128, "pitch_mm": 0.5}
+    wanted = design(
+        **IDEAL,
+        detector=side,
+        abnormalities=[void, small, NODULE],
+        outputs={"visibility": True},
+    )
+    row = Maker(wanted).make(0).row
+    of = {f["kind"] + str(f["size_mm"]): f for f in json.loads(row["findings"])}
+    assert of["nodule10.0"]["contrast"] == row["contrast"]
+    assert of["nodule2.0"]["contrast"] == pytest.approx(
+        np.mean(np.exp(-0.04 * _chords(1.0, -8.0)) - 1.0), rel=1e-9
+    )
+    assert of["void6.0"]["pixels"] == 0, "what is not there has no leaf that is seen"
+    assert "contrast_to_noise" not in row, "no noise"
+    assert "jnd" not in row, "no display"
+
+
 @pytest.mark.parametrize("noise", ["off", "compound"])
 def test_twins_differ_inside_the_lesion_alone_to_the_last_bit(design, noise):
     """Scatter and blur off. With noise too: twins share their luck, pixel by pixel."""

@@ -14,18 +14,18 @@ from phantom.imaging import Acquisition, Gsdf, Presentation, visibility
 BLOCK_PER_MM, BALL_PER_MM, RADIUS_MM = 0.02, 0.05, 6.0
 
 
-def _block(with_ball):
+def _block(with_ball, radius_mm=RADIUS_MM, center=(4, 0, -3)):
     solids = [
         {"type": "box", "center": [0, 0, 0], "size": [50, 30, 50], "material": "block"},
         {
             "type": "sphere",
             "name": "ball",
-            "center": [4, 0, -3],
-            "radius": RADIUS_MM,
+            "center": [*center],
+            "radius": radius_mm,
             "material": "ball",
         },
     ]
-    ball = [{"name": "lump", "leaves": ["ball"], "center": [4, 0, -3], "size_mm": 12}]
+    ball = [{"name": "lump", "leaves": ["ball"], "center": [*center], "size_mm": 2 * radius_mm}]
     return phantom.load(
         {
             "format": "phantom/1",
@@ -85,6 +85,20 @@ def test_contrast_over_noise_follows_from_the_photons(pair, view):
     expected = taken.mean() * photons / math.sqrt(photons)
     # 24 x 24 pixels tell a standard deviation to 3 %, one in 1.5 million beyond 5 of these.
     assert found.contrast_to_noise == pytest.approx(expected, rel=0.15)
+
+
+def test_noise_is_told_even_where_a_finding_covers_one_pixel(view):
+    """From 16 x 16 pixels around it, which tell a standard deviation to 4.4 %."""
+    ill = _block(True, radius_mm=0.2, center=(4.25, 0, -3.25))
+    counting = phantom.DetectorModel(response="photon_counting")
+    exposure = Acquisition(detector_air_kerma_ugy=2.5, detector=counting)
+    (found,) = visibility(ill, _block(False), view, acquisition=exposure)
+    quiet = Acquisition(detector_air_kerma_ugy=2.5, detector=counting, quantum_noise="off")
+    photons = phantom.radiograph(ill, view, acquisition=quiet).signal[60, 60]
+    assert found.pixels == 1
+    taken = math.exp(-(BALL_PER_MM - BLOCK_PER_MM) * 0.4) - 1
+    assert found.contrast == pytest.approx(taken, rel=1e-9)
+    assert found.contrast_to_noise == pytest.approx(taken * math.sqrt(photons), rel=0.2)
 
 
 def test_noticeable_differences_are_those_of_the_standard_display(pair, view):
