@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,10 @@ from phantom.errors import InvalidInputError, Problem
 class Stream:
     """The images of a design, or of one of its splits, made when they are asked for.
 
-    A sequence: ``len(stream)``, ``stream[k]`` and ``for item in stream``; so a PyTorch
-    ``DataLoader`` takes it for a map-style set, with any number of workers. It can be pickled.
+    A sequence: ``len(stream)``, ``stream[k]``, ``stream[a:b:c]``, which is a stream too, and ``for
+    item in stream``; so a PyTorch ``DataLoader`` takes it for a map-style set, with any number of
+    workers, and ``stream[worker::workers]`` is what one of several has to go through. It can be
+    pickled.
 
     Each item is a dictionary of
 
@@ -55,14 +57,24 @@ class Stream:
         for number in range(len(self)):
             yield self[number]
 
-    def __getitem__(self, number: int) -> dict[str, Any]:
-        """Return item ``number``: a function of the design, its seed and the number alone.
+    @overload
+    def __getitem__(self, number: int) -> dict[str, Any]: ...
+
+    @overload
+    def __getitem__(self, number: slice) -> Stream: ...
+
+    def __getitem__(self, number: int | slice) -> dict[str, Any] | Stream:
+        """Return item ``number``, or the stream of a slice of them.
+
+        An item is a function of the design, its seed and the number of its image alone.
 
         Raises
         ------
         IndexError
             There is none.
         """
+        if isinstance(number, slice):
+            return Stream(self.design, self.images[number], self._threads)
         at = place(self.design, self.images[number])
         if self._maker is None:
             self._maker = Maker(self.design, self._threads)
@@ -93,8 +105,8 @@ class Stream:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what another process makes it from: no compiled phantom travels."""
-        ends = (self.images.start, self.images.stop)
-        return {"design": self.design.tree(), "images": ends, "threads": self._threads}
+        images = (self.images.start, self.images.stop, self.images.step)
+        return {"design": self.design.tree(), "images": images, "threads": self._threads}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         self.design, self.images = of_tree(state["design"]), range(*state["images"])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import pickle
 import signal
 import tarfile
 
@@ -80,6 +81,15 @@ def test_an_image_is_the_streams_item_of_the_same_number(undisturbed, plain):
         assert np.abs(item["image"] * 32768 - codes).max() <= 0.51
         mask = np.asarray(Image.open(undisturbed / "train" / f"{number:08d}.mask.png"))
         assert np.array_equal(item["mask"], mask // 255)
+
+
+def test_a_slice_of_a_stream_is_a_stream_that_travels(plain):
+    whole = datasets.stream(plain, "train")
+    part = pickle.loads(pickle.dumps(whole[1::4]))
+    assert [item["index"] for item in part] == [1, 5, 9]
+    assert np.array_equal(part[-1]["image"], whole[9]["image"])
+    with pytest.raises(IndexError):
+        part[3]
 
 
 @pytest.mark.parametrize("workers", [2])
