@@ -25,17 +25,23 @@ from phantom.document import (
     Rotation,
     Solid,
     Transformed,
-    Union,
 )
 from phantom.library import Abnormality, Entry, Technique
 from phantoms.breast.lesions import KINDS, lesions
 from phantoms.breast.parameters import SOURCES, Parameters, Sizes, of_person, sizes
-from phantoms.breast.tissue import Body, lobule_solid, lobules, strands
+from phantoms.breast.strands import strands
+from phantoms.breast.tissue import Body, lobes, lobule_solid, lobules
 from phantoms.draws import generator_of
-from phantoms.parts import ellipsoid, sided, sided_point
+from phantoms.parts import ellipsoid, layered, sided, sided_point, union
 
 MLO_DEG: Final = 45.0
-_BULGE: Final = 0.55  # half the thickness over the ellipsoid's semi-axis through it
+_BULGE: Final = 0.36
+"""Half the thickness over the ellipsoid's semi-axis through it: the edge is fuller than a breast's,
+so that the skin is seen; systems in clinics even the edge out instead."""
+
+_SOURCE_DETECTOR_MM, _OBJECT_DETECTOR_MM, _FIELD_MM = 650.0, 100.0, 240.0
+_MISSED_MM: Final = 8.0
+"""What the detector's edge leaves out before the chest wall."""
 
 
 def _body(parameters: Parameters, size: Sizes, inset_mm: float) -> Body:
@@ -45,7 +51,8 @@ def _body(parameters: Parameters, size: Sizes, inset_mm: float) -> Body:
         upright = 0.9 * size.width_mm / 2 - inset_mm
         return Body((width, depth, upright), upright)
     half = size.thickness_mm / 2
-    return Body((width, depth, half / _BULGE - inset_mm), half - inset_mm)
+    lean = 0.42 if parameters.compression == "mlo" else 0.0
+    return Body((width, depth, half / _BULGE - inset_mm), half - inset_mm, lean)
 
 
 def _solid(body: Body, name: str | None = None, material: str | None = None) -> Ellipsoid:
@@ -65,13 +72,14 @@ def _solid(body: Body, name: str | None = None, material: str | None = None) -> 
 def _pectoral(size: Sizes) -> Solid:
     """Return the muscle's edge: a slab aslant, thick at the axilla and gone below the middle."""
     half = size.width_mm / 2
+    flat = 0.14 * size.thickness_mm
     return Ellipsoid(
         type="ellipsoid",
         name="pectoral-muscle",
         material="muscle",
-        center=(-half, 0.12 * size.depth_mm, 0.0),
-        semi_axes=(1.25 * half, 0.52 * size.depth_mm, 0.3 * size.thickness_mm),
-        cuts=(Cut(point=(0.25 * half, 0.0, 0.0), normal=(1.0, 0.0, 0.0)),),
+        center=(-1.15 * half, 0.25 * size.depth_mm, 0.0),
+        semi_axes=(1.35 * half, 0.78 * size.depth_mm, 2.0 * flat),
+        cuts=tuple(Cut(point=(0.0, 0.0, s * flat), normal=(0.0, 0.0, s)) for s in (-1.0, 1.0)),
     )
 
 
@@ -100,18 +108,28 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
     size = sizes(parameters)
     generator = generator_of(parameters.seed)
     outer, inner = _body(parameters, size, 0.0), _body(parameters, size, size.skin_mm)
-    gland = [
-        lobule_solid(f"lobule-{k + 1:03d}", lobule)
-        for k, lobule in enumerate(lobules(inner, parameters.lobules, size.glandular, generator))
-    ]
-    gland += strands(inner, parameters.strands, generator)
+    branches = lobes(inner, generator)
+    thin = strands(inner, branches, parameters.strands, generator)
+    share = size.glandular - (1.0 - size.glandular) * thin.volume_mm3 / inner.volume_mm3
+    share = max(share, 0.25 * size.glandular)
+    gland, clefts = lobules(inner, branches, parameters.lobules, share, generator)
+    parts = [lobule_solid(f"lobule-{k + 1:04d}", one, "gland") for k, one in enumerate(gland)]
+    gaps = [lobule_solid(f"cleft-{k + 1:03d}", one, "fat") for k, one in enumerate(clefts)]
     bound = _solid(inner)
-    nipple = ellipsoid("nipple", (0.0, 0.5 - size.depth_mm, 0.0), (5.5, 7.0, 5.5), "skin")
+    tip = -size.depth_mm
+    mound = 0.8 * size.thickness_mm / 2 if parameters.compression != "none" else 14.0
+    nipple = ellipsoid("nipple", (0.0, tip - 2.0, 0.0), (6.5, 8.0, 8.0), "skin")
+    areola = (0.0, tip + 8.5, 0.0)
+    within: list[Solid] = [union(*parts), union(*gaps)]
+    if thin.solids:
+        within.append(union(*thin.solids))
     layers: list[Solid] = [
-        nipple,
+        ellipsoid("areola", areola, (17.0, 14.5, mound), "skin"),
         _solid(outer, "skin", "skin"),
+        ellipsoid("areola fat", areola, (14.0, 11.0, mound - 4.0), "fat"),
         _solid(inner, "fat", "fat"),
-        Intersection(type="intersection", solids=(Union(type="union", solids=tuple(gland)), bound)),
+        Intersection(type="intersection", solids=(layered(*within), bound)),
+        nipple,
     ]
     if parameters.compression == "mlo":
         layers.append(Intersection(type="intersection", solids=(_pectoral(size), bound)))
@@ -130,7 +148,17 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
         for lesion in found
         if lesion.finding.center is not None
     )
-    middle = _place(parameters, (0.0, -size.depth_mm / 2, 0.0))
+    aim: Point
+    if parameters.compression == "none":
+        aim = (0.0, -size.depth_mm / 2, 0.0)
+    else:
+        behind, low = _OBJECT_DETECTOR_MM, 0.0
+        if parameters.compression == "mlo":
+            half = size.width_mm / 2
+            behind = max(behind, half * math.sqrt(1 - _BULGE**2) + size.thickness_mm / 2 + 10.0)
+            low = 0.1 * half
+        seen = _FIELD_MM * (1.0 - behind / _SOURCE_DETECTOR_MM)
+        aim = (low, -seen / 2 - _MISSED_MM, 0.0)
     return Document(
         format="phantom/1",
         name="breast",
@@ -139,7 +167,7 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
         materials=materials,
         solid=_standing(parameters, Replace(type="replace", solids=tuple(layers))),
         landmarks={
-            "isocentre": middle,
+            "isocentre": _place(parameters, aim),
             "nipple": _place(parameters, (0.0, -size.depth_mm, 0.0)),
         },
         anatomy=Anatomy(region="breast", laterality=parameters.side),
@@ -153,8 +181,9 @@ _TECHNIQUE: Final = Technique(
     kvp=28.0,
     anode="tungsten",
     filtration_mm={"rhodium": 0.05},
-    source_detector_mm=650.0,
-    window=(3.05, 1.9),
+    source_detector_mm=_SOURCE_DETECTOR_MM,
+    field_mm=_FIELD_MM,
+    window=(3.4, 1.6),
     air_kerma_ugy=100.0,
 )
 
