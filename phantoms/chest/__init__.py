@@ -16,11 +16,11 @@ _PA = Technique(
     kvp=120.0,
     source_detector_mm=1800.0,
     object_detector_mm=150.0,
-    window=(3.55, 4.1),
+    window=(3.75, 4.7),
     air_kerma_ugy=2.5,
     field_mm=410.0,
 )
-_LATERAL = replace(_PA, object_detector_mm=240.0, window=(4.5, 6.0))
+_LATERAL = replace(_PA, object_detector_mm=240.0, window=(5.0, 5.0))
 
 entry = Entry(
     name="chest",

@@ -9,7 +9,7 @@ import numpy as np
 from phantom.document import GeneralizedCylinder, Rotation, Solid, Sphere, Transformed
 from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
-from phantoms.chest.girdle import arm_axis, kept
+from phantoms.chest.girdle import arm_axis, kept, right_shoulder
 from phantoms.chest.ribs import SIDES, on_side
 from phantoms.chest.shapes import Row, column, fitted, grown, rounded, sampled, tube
 from phantoms.parts import ellipsoid, union
@@ -17,24 +17,12 @@ from phantoms.parts import ellipsoid, union
 SKIN_MM: Final = 1.6
 LAYERS: Final = ("muscle", "fat", "skin")
 """Inside out; each is drawn with all that it encloses."""
-# z, half-width, front and back of the trunk under its fat, drawn.
+# z, half-width, front and back of the trunk under its fat, drawn, below what the arms move.
 _TRUNK: Final = (
     (-280.0, 141.0, -101.0, 84.0),
     (-150.0, 151.0, -108.0, 98.0),
     (-100.0, 155.0, -109.0, 105.0),
     (-50.0, 157.0, -110.0, 111.0),
-    (0.0, 160.0, -106.0, 115.0),
-    (35.0, 166.0, -97.0, 115.0),
-    (62.0, 172.0, -86.0, 111.0),
-    (84.0, 176.0, -76.0, 104.0),
-    (98.0, 173.0, -70.0, 98.0),
-    (110.0, 161.0, -64.0, 92.0),
-    (122.0, 131.0, -56.0, 86.0),
-    (136.0, 92.0, -50.0, 78.0),
-    (152.0, 66.0, -46.0, 68.0),
-    (170.0, 58.0, -46.0, 60.0),
-    (188.0, 56.0, -48.0, 56.0),
-    (235.0, 57.0, -52.0, 54.0),
 )
 _TRUNK_SHAPE: Final = rounded(2.6)
 _ARM_RADII: Final = (42.0, 45.0, 44.0, 42.0, 40.0, 40.0)
@@ -48,7 +36,9 @@ def _fat(frame: Frame, z: float) -> float:
 
 def trunk_rows(frame: Frame) -> list[Row]:
     """Return the sections of the muscles' surface."""
-    rows: list[Row] = [(z, -half, half, front, back) for z, half, front, back in _TRUNK]
+    rows: list[Row] = [
+        (z, -half, half, front, back) for z, half, front, back in (*_TRUNK, *frame.girdle.trunk)
+    ]
     return sampled(fitted(frame, rows), 14)
 
 
@@ -110,7 +100,7 @@ def definitions(cage: Cage, sex: str) -> dict[str, Solid]:
     found: dict[str, Solid] = {}
     for layer, material in enumerate(LAYERS):
         arm = union(_arm(f, "arm", material, layer), _shoulder(f, "shoulder", material, layer))
-        parts: list[Solid] = [kept(f, arm)]
+        parts: list[Solid] = [arm]
         if sex == "female" and layer > 0:
             parts.append(breast(cage, layer))
         found[f"{material} of a side"] = union(*parts)
@@ -123,10 +113,10 @@ def layers(cage: Cage, sex: str) -> list[Solid]:
     """Return skin, fat, gland and muscle, outside in, from the definitions."""
     result: list[Solid] = []
     for word in ("skin", "fat", "gland", "muscle"):
-        sides = [on_side(word, side, f"{word} of a side") for side in SIDES]
+        sides = [on_side(word, side, f"{word} of a side", right_shoulder(cage)) for side in SIDES]
         if word in LAYERS:
             trunk = _trunk(cage.frame, f"{word} of the trunk", word, LAYERS.index(word))
-            result.append(union(trunk, *sides))
+            result.append(union(trunk, kept(cage.frame, union(*sides), f"arms' {word}")))
         elif sex == "female":
             result.append(union(*sides))
     return result

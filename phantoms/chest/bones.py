@@ -18,7 +18,6 @@ from phantoms.chest import abnormalities as known
 from phantoms.chest import ribs, spine
 from phantoms.chest.cage import Cage, FloatArray
 from phantoms.chest.changes import Changes, as_point
-from phantoms.chest.shapes import MIRROR
 from phantoms.parts import union
 
 
@@ -38,10 +37,6 @@ def _in_rib(
     down = np.cross(normal, forward)
     down /= np.linalg.norm(down)
     return place, forward, down if down[2] < 0 else -down
-
-
-def _on_side(point: FloatArray, side: str) -> FloatArray:
-    return point * [1.0 if side == "left" else -1.0, 1.0, 1.0]
 
 
 def fracture(cage: Cage, result: Changes, index: int, one: known.RibFracture, name: str) -> None:
@@ -68,7 +63,7 @@ def fracture(cage: Cage, result: Changes, index: int, one: known.RibFracture, na
                 translate=as_point(moved),
             )
         )
-    matrix = MIRROR if one.side == "right" else None
+    matrix = cage.matrix(one.side, one.rib)
     label = f"{one.side} rib {one.rib}"
     result.ribs[one.side, one.rib] = Transformed(
         type="transformed", name=label, solid=union(*fragments), matrix=matrix
@@ -78,13 +73,15 @@ def fracture(cage: Cage, result: Changes, index: int, one: known.RibFracture, na
         for w in ("back", "front")
         for part in ("cortex", "spongiosa")
     ]
-    result.found(one, name, leaves, _on_side(place, one.side), max(one.gap_mm, one.step_mm))
+    result.found(
+        one, name, leaves, cage.on_side(place, one.side, one.rib), max(one.gap_mm, one.step_mm)
+    )
 
 
 def rib_lesion(cage: Cage, result: Changes, one: known.RibLesion, name: str) -> None:
     """Add a ball that is kept within a rib."""
     place, _, _ = _in_rib(cage, one)
-    at = _on_side(place, one.side)
+    at = cage.on_side(place, one.side, one.rib)
     ball = Sphere(
         type="sphere", name=name, material=_lesion(result, one.kind), center=as_point(at),
         radius=one.length_mm / 2,
@@ -93,7 +90,7 @@ def rib_lesion(cage: Cage, result: Changes, one: known.RibLesion, name: str) -> 
         type="transformed",
         name=f"bounds of {name}",
         solid=Instance(type="instance", of=f"rib {one.rib}"),
-        matrix=MIRROR if one.side == "right" else None,
+        matrix=cage.matrix(one.side, one.rib),
     )
     result.at_last.append(Intersection(type="intersection", solids=(ball, bound)))
     result.found(one, name, [name], at, one.length_mm)

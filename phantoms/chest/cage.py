@@ -4,7 +4,8 @@ At every height the middle of the chest's wall is one outline, stretched to the 
 and depth there; the ribs' axes are curves on that surface, and the lungs fill it to within a wall's
 thickness, so that no rib ever runs through a lung. Of each rib the heights of its head and of its
 front end are drawn; between them it sinks partly with the way forward, as if it lay in a plane,
-and partly with the way around. All is drawn on the left; the right is its mirror image.
+and partly with the way around. All is drawn on the left; the right is its mirror image, each rib
+turned a little about its head.
 """
 
 from __future__ import annotations
@@ -16,7 +17,9 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from phantom.document import Point
 from phantoms.chest.frame import Frame
+from phantoms.chest.sides import Rows, Sides
 from phantoms.chest.spine import spine_y
 
 if TYPE_CHECKING:
@@ -109,6 +112,23 @@ class Cage:
     """The ribs' surface of one person, in mm of the body."""
 
     frame: Frame
+    sides: Sides
+
+    def matrix(self, side: str, number: int) -> Rows | None:
+        """Return the rows of what moves a left rib to its own side; None for the left."""
+        return None if side == "left" else self.right_rib(number)
+
+    def right_rib(self, number: int) -> Rows:
+        """Return the rows of what moves a left rib to the right."""
+        return self.sides.rib(number, self._rib_head(number))
+
+    def on_side(self, point: FloatArray, side: str, number: int) -> FloatArray:
+        """Return where a point of a left rib is on a side."""
+        rows = self.matrix(side, number)
+        if rows is None:
+            return point
+        moved: FloatArray = np.array(rows) @ [*point, 1.0]
+        return moved
 
     @cached_property
     def outline(self) -> CubicSpline:
@@ -185,10 +205,20 @@ class Cage:
         heights = height - drop * sunk
         points = [self.point(t, h) for t, h in zip(turns, heights, strict=True)]
         normals = [self.normal(t, h) for t, h in zip(turns, heights, strict=True)]
-        z = _HEADS[number]
-        middle = np.array(self.frame.at(0.0, spine_y(z), z))
-        ends = [middle + self.frame.bone * np.array(place) for place in (_HEAD, _NECK)]
+        ends = [np.array(self._by_spine(number, place)) for place in (_HEAD, _NECK)]
         return RibLine(np.array([*ends, *points]), np.array([normals[0], normals[0], *normals]))
+
+    def _by_spine(self, number: int, place: Point) -> Point:
+        """Return a point given from the middle of the spine at the height of a rib's head."""
+        z = _HEADS[number]
+        x, y, up = (
+            m + self.frame.bone * by
+            for m, by in zip(self.frame.at(0.0, spine_y(z), z), place, strict=True)
+        )
+        return (x, y, up)
+
+    def _rib_head(self, number: int) -> Point:
+        return self.frame.at(*_FIRST[0]) if number == 1 else self._by_spine(number, _HEAD)
 
     def _first(self) -> RibLine:
         points = np.array(self.frame.path(_FIRST))

@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 
 from phantom.document import Anatomy, Document, Instance, Material, Point, ReferenceMaterial, Solid
 from phantom.library import Abnormality
-from phantoms.chest import body, girdle, lungs, mediastinum, ribs, spine, vessels
+from phantoms.chest import body, fissures, girdle, lungs, mediastinum, ribs, spine, vessels
 from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
 from phantoms.chest.parameters import MODEL_HEIGHT_CM, Parameters, sizes
 from phantoms.chest.ribs import SIDES
+from phantoms.chest.sides import Sides
 from phantoms.chest.sources import SOURCES
 from phantoms.chest.wrong import SITES, Fits, changes
 from phantoms.parts import layered, named, union
@@ -45,6 +46,7 @@ def materials(parameters: Parameters) -> dict[str, Material]:
         "spongiosa": like("spongiosa_icru44", round(spongiosa, 4)),
         "arch_bone": like("cortical_bone_icru44", round(0.60 * cortical, 4)),
         "blade_bone": like("cortical_bone_icru44", round(0.78 * cortical, 4)),
+        "pleura": like("soft_tissue_icru44", 0.55),
     }
 
 
@@ -52,7 +54,7 @@ def frame_of(parameters: Parameters) -> Frame:
     """Return the person's frame."""
     height = parameters.person.height_cm
     slight = 1.0 if parameters.sex == "male" else 0.95
-    return Frame(sizes(parameters), height, slight * height / MODEL_HEIGHT_CM)
+    return Frame(sizes(parameters), height, slight * height / MODEL_HEIGHT_CM, parameters.arms)
 
 
 def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> Document:
@@ -64,24 +66,33 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
         An abnormality does not fit, with paths under ``/abnormalities/i``.
     """
     frame = frame_of(parameters)
-    cage = Cage(frame)
+    cage = Cage(frame, Sides.drawn(parameters.asymmetry, parameters.asymmetry_seed))
+    right = girdle.right_shoulder(cage)
     organs = _organs(cage)
     lung_definitions: dict[str, Solid] = {f"{side} lung": lungs.lung(cage, side) for side in SIDES}
     wrong = changes(cage, abnormalities, lambda: _in_lungs(organs, lung_definitions))
     both = tuple(Instance(type="instance", of=name) for name in lung_definitions)
     trees = union(*(vessels.tree(cage, side, parameters.vessel_seed) for side in SIDES))
-    girdles = ("clavicle", "scapula", "humerus")
+    humeri = union(*(ribs.on_side("humerus", side, "humerus", right) for side in SIDES))
     parts: list[Solid] = [
         *body.layers(cage, parameters.sex),
         union(*both),
+        fissures.fissures(frame),
         trees,
         *wrong.in_lungs,
         *organs,
-        union(*(ribs.on_side("side", side, "cartilages") for side in SIDES)),
+        union(*(ribs.cartilages(cage, side) for side in SIDES)),
         named("sternum", ribs.breastbone(cage)),
         union(*(spine.placed(frame, name) for name in spine.LEVELS)),
-        ribs.ribs(wrong.ribs),
-        union(*(ribs.on_side(name, side, name) for name in girdles for side in SIDES)),
+        ribs.ribs(cage, wrong.ribs),
+        union(
+            *(
+                ribs.on_side(name, side, name, right)
+                for name in ("clavicle", "scapula")
+                for side in SIDES
+            )
+        ),
+        girdle.kept(frame, humeri, "humeri"),
         *wrong.at_last,
     ]
     return Document(
@@ -92,7 +103,6 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
         materials={**materials(parameters), **wrong.materials},
         definitions={
             **ribs.definitions(cage),
-            "cartilages": union(*(ribs.cartilage(cage, n) for n in range(1, 11))),
             **body.definitions(cage, parameters.sex),
             **spine.definitions(),
             "clavicle": girdle.clavicle(frame),

@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 from phantom.document import Point
+from phantoms.chest.arms import GIRDLES, Arms, Girdle
 from phantoms.chest.parameters import MODEL_HEIGHT_CM, Sizes
 
 if TYPE_CHECKING:
@@ -43,11 +44,14 @@ class Frame:
         Stature; the spine keeps its share of it.
     bone
         Factor of the thicknesses of vertebrae and shoulder bones.
+    arms
+        Whether the arms hang or are raised.
     """
 
     sizes: Sizes
     height_cm: float
     bone: float
+    arms: Arms = "at_sides"
 
     @property
     def x(self) -> float:
@@ -63,6 +67,11 @@ class Frame:
     def z(self) -> float:
         """Stretch along the spine."""
         return self.height_cm / MODEL_HEIGHT_CM
+
+    @property
+    def girdle(self) -> Girdle:
+        """The drawn pose of the shoulders."""
+        return GIRDLES[self.arms]
 
     @cached_property
     def _bend_per_mm(self) -> float:

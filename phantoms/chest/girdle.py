@@ -1,11 +1,11 @@
 """The shoulder girdle: clavicles, simplified scapulae and the upper ends of the humeri.
 
-Drawn on the left as for a PA view: shoulders rolled forward, so that the scapulae clear the lungs,
-and the arms away from the sides.
+Drawn on the left; where they are when the arms hang or are raised tells `phantoms.chest.arms`.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -20,33 +20,24 @@ from phantom.document import (
     SplineContour,
     UpFrame,
 )
+from phantoms.chest.arms import CUT_X_MM, TOP_Z_MM
+from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
 from phantoms.chest.shapes import tube
+from phantoms.chest.sides import Rows
 from phantoms.parts import Station, ellipsoid, layered, swept, union, within
 
-# The clavicle: points, and half its height and depth there.
-_CLAVICLE: Final = (
-    ((17.0, -52.0, 88.0), 10.5, 9.5),
-    ((27.0, -54.5, 89.5), 9.0, 8.5),
-    ((45.0, -56.0, 92.5), 6.6, 6.4),
-    ((70.0, -51.0, 96.5), 5.8, 6.0),
-    ((95.0, -38.0, 101.0), 5.6, 6.2),
-    ((120.0, -23.0, 105.5), 5.4, 7.5),
-    ((141.0, -12.0, 108.5), 5.2, 9.0),
-    ((153.0, -7.0, 109.5), 4.6, 8.5),
-)
 # The blade, in its own plane: sideways from the medial border, and height over the spine's root.
 _BLADE: Final = (
     (6.0, 46.0), (0.0, 22.0), (-2.0, 0.0), (0.0, -34.0), (6.0, -72.0), (15.0, -104.0),
     (22.0, -110.0), (29.0, -104.0), (40.0, -74.0), (54.0, -38.0), (66.0, -8.0), (72.0, 8.0),
     (73.0, 26.0), (66.0, 36.0), (50.0, 37.0), (32.0, 44.0), (16.0, 51.0),
 )  # fmt: skip
-_ROOT: Final = (119.0, 78.0, 52.0)
 _SIDEWAYS: Final = np.array([0.63, -0.776, 0.0])
-HEAD: Final = (184.0, 3.0, 82.0)
+_BEHIND: Final = np.array([0.776, 0.63, 0.0])
+_UP: Final = np.array([0.0, 0.0, 1.0])
 _HEAD_RADIUS_MM: Final = 23.0
-CUT_X_MM: Final = 214.0
-"""The arms are drawn to here."""
+_FAR_MM: Final = 2000.0
 
 
 def _stations(frame: Frame, table: tuple[tuple[Point, float, float], ...]) -> list[Station]:
@@ -62,7 +53,7 @@ def _stations(frame: Frame, table: tuple[tuple[Point, float, float], ...]) -> li
 
 def clavicle(frame: Frame) -> Solid:
     """Return a left clavicle: cortex, thickest over its middle, and spongiosa."""
-    stations = _stations(frame, _CLAVICLE)
+    stations = _stations(frame, frame.girdle.clavicle)
     walls = [0.8, 1.0, 1.8, 2.3, 2.2, 1.6, 1.0, 0.8]
     return layered(
         swept("cortex", stations, "cortical_bone", up=(0.0, 0.0, 1.0)),
@@ -72,10 +63,19 @@ def clavicle(frame: Frame) -> Solid:
 
 def _on_blade(frame: Frame, sideways: float, up: float, behind: float = 0.0) -> Point:
     """Return the point of the body at a place of the blade, so far behind it."""
-    back = np.array([0.776, 0.63, 0.0])
-    root = np.array(frame.at(*_ROOT))
-    at = root + frame.bone * (sideways * _SIDEWAYS + behind * back + up * np.array([0, 0, 1.0]))
+    turn = math.radians(frame.girdle.turn_deg)
+    out = math.cos(turn) * _SIDEWAYS + math.sin(turn) * _UP
+    high = math.cos(turn) * _UP - math.sin(turn) * _SIDEWAYS
+    root = np.array(frame.at(*frame.girdle.root))
+    at = root + frame.bone * (sideways * out + behind * _BEHIND + up * high)
     return (float(at[0]), float(at[1]), float(at[2]))
+
+
+def _upward(frame: Frame) -> Point:
+    """Return the way up along the blade."""
+    turn = math.radians(frame.girdle.turn_deg)
+    way = math.cos(turn) * _UP - math.sin(turn) * _SIDEWAYS
+    return (float(way[0]), float(way[1]), float(way[2]))
 
 
 def scapula(frame: Frame) -> Solid:
@@ -91,7 +91,7 @@ def scapula(frame: Frame) -> Solid:
         contour=SplineContour(
             type="spline", points=tuple((f.bone * up, f.bone * side) for side, up in _BLADE)
         ),
-        frame=UpFrame(up=(0.0, 0.0, 1.0)),
+        frame=UpFrame(up=_upward(f)),
     )
     side = tube(
         "lateral border",
@@ -120,7 +120,7 @@ def scapula(frame: Frame) -> Solid:
             )
         ],
         "arch_bone",
-        up=(0.0, 0.0, 1.0),
+        up=_upward(f),
     )
     coracoid = tube(
         "coracoid",
@@ -138,36 +138,33 @@ def scapula(frame: Frame) -> Solid:
 
 
 def arm_axis(frame: Frame) -> list[Point]:
-    """Return points of the humerus from its head to where it is cut."""
-    return [
-        frame.at(*HEAD),
-        frame.at(HEAD[0] + 12.0, HEAD[1] - 1.0, HEAD[2] - 17.0),
-        frame.at(HEAD[0] + 26.0, HEAD[1] - 4.0, HEAD[2] - 40.0),
-        frame.at(HEAD[0] + 42.0, HEAD[1] - 8.0, HEAD[2] - 68.0),
-        frame.at(HEAD[0] + 60.0, HEAD[1] - 12.0, HEAD[2] - 100.0),
-        frame.at(HEAD[0] + 112.0, HEAD[1] - 22.0, HEAD[2] - 190.0),
-    ]
+    """Return points of the humerus from its head to beyond where it is cut."""
+    return frame.path(frame.girdle.arm)
 
 
-def cut_x(frame: Frame) -> float:
-    """Return how far from the middle the arms are cut."""
-    return CUT_X_MM * frame.x
+def right_shoulder(cage: Cage) -> Rows:
+    """Return the rows of what moves the left shoulder to the right."""
+    return cage.sides.shoulder(cage.frame.at(*cage.frame.girdle.clavicle[0][0]))
 
 
-def kept(frame: Frame, arm: Solid) -> Solid:
-    """Return what of a left arm lies before the plane at which arms are cut."""
-    far = 1000.0
-    middle = (cut_x(frame) - far / 2, 0.0, 0.0)
-    room = Box(type="box", name="bounds of the arm", center=middle, size=(far, far, far))
-    return Intersection(type="intersection", solids=(arm, room))
+def kept(frame: Frame, arms: Solid, of: str) -> Solid:
+    """Return what of both arms lies before the planes at which they are cut."""
+    half, top = CUT_X_MM * frame.x, TOP_Z_MM * frame.z
+    room = Box(
+        type="box",
+        name=f"bounds of the {of}",
+        center=(0.0, 0.0, top - _FAR_MM / 2),
+        size=(2.0 * half, _FAR_MM, _FAR_MM),
+    )
+    return Intersection(type="intersection", solids=(arms, room))
 
 
 def humerus(frame: Frame) -> Solid:
     """Return the upper end of a left humerus."""
     f = frame
-    head = f.at(*HEAD)
     radius = _HEAD_RADIUS_MM * f.bone
     axis = arm_axis(f)
+    head = axis[0]
     radii = [19.0, 19.5, 15.0, 12.5, 12.0, 12.0]
     stations = [
         Station(p, (-r * f.bone, r * f.bone), (-r * f.bone, r * f.bone))
@@ -175,10 +172,9 @@ def humerus(frame: Frame) -> Solid:
     ]
     inside = within(stations, [0.8, 1.0, 2.5, 4.0, 4.5, 4.5], closed=(True, False))
     up = (0.0, 1.0, 0.0)
-    bone = layered(
+    return layered(
         ellipsoid("head", head, (radius, radius, radius), "cortical_bone"),
         swept("cortex", stations, "cortical_bone", up=up),
         ellipsoid("spongiosa of the head", head, (radius - 0.9,) * 3, "spongiosa"),
         swept("spongiosa", inside, "spongiosa", up=up),
     )
-    return kept(f, bone)

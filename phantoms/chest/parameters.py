@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 from phantom.document import told
 from phantom.library import PersonParameters
 from phantom.library.people import mean_person
+from phantoms.chest.arms import Arms
 from phantoms.people import fat_mm, trimmed
 
 if TYPE_CHECKING:
@@ -110,6 +111,12 @@ class Parameters(PersonParameters):
             le=60,
         ),
     ] = None
+    arms: Annotated[
+        Arms,
+        told(
+            "Arms", "none", "Hanging, as for a PA view, or raised beside the head, for a lateral."
+        ),
+    ] = "at_sides"
     lung_density_g_cm3: Annotated[
         float, told("Lung density", "g/cm³", "Of lung without its drawn vessels.", ge=0.08, le=0.6)
     ] = 0.2
@@ -119,6 +126,27 @@ class Parameters(PersonParameters):
             "Vessel seed",
             "none",
             "Which of many trees the lungs' vessels are.",
+            ge=0,
+            le=2**31 - 1,
+            strict=True,
+        ),
+    ] = 0
+    asymmetry: Annotated[
+        float,
+        told(
+            "Asymmetry",
+            "1",
+            "Of the skeleton's sides: 0 for mirror images, 1 for the usual differences.",
+            ge=0,
+            le=1,
+        ),
+    ] = 1.0
+    asymmetry_seed: Annotated[
+        int,
+        told(
+            "Asymmetry seed",
+            "none",
+            "Which of many small differences between the sides.",
             ge=0,
             le=2**31 - 1,
             strict=True,
@@ -180,7 +208,7 @@ def sizes(parameters: Parameters) -> Sizes:
 
 
 def of_person(person: Person, generator: np.random.Generator) -> Parameters:
-    """Draw a person's chest about the means of people like this one; eight numbers are drawn."""
+    """Draw a person's chest about the means of people like this one; nine numbers are drawn."""
     mean, means = usual(person), MEANS[person.sex]
     z = [trimmed(number) for number in generator.standard_normal(7).tolist()]
     # Height and weight explain about half of the spread of the chest's width.
@@ -196,4 +224,5 @@ def of_person(person: Person, generator: np.random.Generator) -> Parameters:
         aorta_mm=round(_within(mean.aorta_mm * (1 + 0.1 * z[5]), 19, 44), 1),
         kyphosis_deg=round(_within(mean.kyphosis_deg + 5.0 * z[6], 6, 58), 1),
         vessel_seed=int(generator.integers(0, 2**31 - 1)),
+        asymmetry_seed=int(generator.integers(0, 2**31 - 1)),
     )

@@ -25,6 +25,7 @@ from phantom.document import (
 )
 from phantoms.chest.cage import Cage, FloatArray, RibLine
 from phantoms.chest.shapes import MIRROR, chain
+from phantoms.chest.sides import Rows
 from phantoms.parts import Station, chord_lengths, knots, layered, swept, union, within
 
 # Along a rib: height and thickness of its section over those at its middle, and its cortex.
@@ -121,9 +122,9 @@ def _oval(
     )
 
 
-def on_side(name: str, side: str, of: str) -> Transformed:
+def on_side(name: str, side: str, of: str, right: Rows = MIRROR) -> Transformed:
     """Return a solid of the definitions, drawn on the left, on its own or the other side."""
-    matrix = MIRROR if side == "right" else None
+    matrix = right if side == "right" else None
     return Transformed(
         type="transformed",
         name=f"{side} {name}",
@@ -133,15 +134,30 @@ def on_side(name: str, side: str, of: str) -> Transformed:
 
 
 def definitions(cage: Cage) -> dict[str, Solid]:
-    """Return the twelve left ribs by name."""
-    return {f"rib {number}": rib(cage, number) for number in range(1, 13)}
+    """Return the twelve left ribs and the cartilages of ten by name."""
+    found = {f"rib {number}": rib(cage, number) for number in range(1, 13)}
+    return found | {f"cartilage {number}": cartilage(cage, number) for number in range(1, 11)}
 
 
-def ribs(changed: Mapping[tuple[str, int], Solid]) -> Solid:
+def cartilages(cage: Cage, side: str) -> Transformed:
+    """Return the cartilages of a side, each moved as its rib is."""
+    parts = (
+        Transformed(
+            type="transformed",
+            solid=Instance(type="instance", of=f"cartilage {number}"),
+            matrix=cage.matrix(side, number),
+        )
+        for number in range(1, 11)
+    )
+    return Transformed(type="transformed", name=f"{side} side", solid=union(*parts))
+
+
+def ribs(cage: Cage, changed: Mapping[tuple[str, int], Solid]) -> Solid:
     """Return all ribs; ``changed`` ones in place of the usual."""
     return union(
         *(
-            changed.get((side, number)) or on_side(f"rib {number}", side, f"rib {number}")
+            changed.get((side, number))
+            or on_side(f"rib {number}", side, f"rib {number}", cage.right_rib(number))
             for number in range(1, 13)
             for side in SIDES
         )

@@ -20,7 +20,6 @@ from phantom.document import (
     SplineAxis,
     SplineContour,
     SuperellipseContour,
-    Transformed,
     UpFrame,
 )
 from phantoms.parts import chord_lengths, knots
@@ -170,8 +169,3 @@ def fitted(frame: Frame, rows: Sequence[Row]) -> list[Row]:
 def grown(rows: Sequence[Row], by_mm: float) -> list[Row]:
     """Return rows that reach farther on each side."""
     return [(z, r - by_mm, lt + by_mm, f - by_mm, b + by_mm) for z, r, lt, f, b in rows]
-
-
-def mirrored(solid: Solid, name: str | None = None) -> Transformed:
-    """Return the mirror image of a solid, on the other side of the body."""
-    return Transformed(type="transformed", name=name, solid=solid, matrix=MIRROR)

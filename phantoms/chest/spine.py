@@ -54,15 +54,17 @@ KINDS: Final = {
     "middle": Kind(14.6, 13.2, 19.2, (2.6, 6.0), (29.0, 35.0, 5.0), (55.0, -26.0), 8.0),
     "lower": Kind(17.6, 14.4, 23.5, (4.2, 8.0), (24.0, 32.0, 2.0), (52.0, -12.0), 10.0),
 }
-SHELL_MM: Final = 0.6
+SHELL_MM: Final = 0.3
+"""Of compact bone about a body and at its end plates."""
 WAIST: Final = 0.91
 """Half-widths of a body at its middle over those of its end plates."""
 
 
 def spine_y(z: float) -> float:
     """Return where the middles of the vertebral bodies are, front to back, in the drawn man."""
-    if z > 130.0:  # the neck leans forward of the chest no more
-        return spine_y(130.0) - 0.16 * (z - 130.0)
+    if z > 130.0:  # the neck bends back upright
+        above = z - 130.0
+        return spine_y(130.0) - 0.349 * above + 0.0016 * above**2
     if z < -130.0:
         return spine_y(-130.0) + 0.30 * (z + 130.0)
     return 49.0 - z * z / (2.0 * 372.0)
@@ -119,7 +121,7 @@ def vertebra(kind: Kind) -> Solid:
             ellipsoid(
                 f"{side} joints",
                 (pillar[0] * 0.95, pillar[1] + 1.0, 0.0),
-                (5.0, 3.6, 0.62 * kind.height),
+                (5.0, 3.6, 0.52 * kind.height),
                 "arch_bone",
             ),
             cone(

@@ -50,9 +50,9 @@ _RIGHT: Final = (
     ((-36.0, 12.0, -22.0), 3.0, (-62.0, 44.0, -66.0)),
     ((-40.0, 8.0, -12.0), 2.6, (-102.0, 2.0, -16.0)),
 )
-DEPTH: Final = 3
-STEPS: Final = 2
-"""Cones to a branch, so that branches bend."""
+DEPTH: Final = 4
+BENT: Final = 2
+"""Branches with so many or more branchings to come are two cones, so that they bend."""
 
 
 _Piece = tuple[FloatArray, FloatArray, float, float]
@@ -118,15 +118,16 @@ def _grow(
     """Add a branch and all that it splits into; ``draws`` are its numbers in [0, 1)."""
     own, rest = draws[:6], draws[6:]
     end_radius = 0.84 * radius
-    step = length / STEPS
-    for part in range(STEPS):
+    steps = 2 if depth >= BENT else 1
+    step = length / steps
+    for part in range(steps):
         wander = 0.16 * (own[part : part + 3] - 0.5)
         heading = _unit(heading + 0.22 * _unit(goal - at + 1e-9) + wander)
         tip = at + step * heading
         if not room.holds(tip, 3.0 + 1.2 * radius):
             return
-        share = (part + 1) / STEPS
-        start = radius + (end_radius - radius) * part / STEPS
+        share = (part + 1) / steps
+        start = radius + (end_radius - radius) * part / steps
         found.append((at, tip, start, radius + (end_radius - radius) * share))
         at = tip
     if depth == 0:

@@ -193,16 +193,30 @@ def test_no_rib_runs_through_a_lung(chests: dict[str, Phantom], along: Along) ->
         assert not inside.any()
 
 
-def test_the_ribs_of_both_sides_mirror_each_other(chests: dict[str, Phantom]) -> None:
-    chest = chests["male"]
+def test_without_asymmetry_the_ribs_of_both_sides_mirror_each_other() -> None:
+    chest = library.build("chest", asymmetry=0.0)
     for number in range(1, 13):
         for part in ("cortex", "spongiosa"):
-            boxes = [
-                chest.leaf_bounds[chest.leaf_names.index(f"{side} rib {number}/{part}")]
-                for side in ("left", "right")
-            ]
-            assert np.allclose(boxes[0][::-1, 0], -boxes[1][:, 0], atol=1e-9)
-            assert np.allclose(boxes[0][:, 1:], boxes[1][:, 1:], atol=1e-9)
+            left, right = rib_boxes(chest, f"rib {number}/{part}")
+            assert np.allclose(left[::-1, 0], -right[:, 0], atol=1e-9)
+            assert np.allclose(left[:, 1:], right[:, 1:], atol=1e-9)
+
+
+def test_the_sides_of_a_person_differ_by_some_millimetres(chests: dict[str, Phantom]) -> None:
+    """Heads of ribs are level; the ends in front, and the shoulders, are not."""
+    chest = chests["male"]
+    lower = []
+    for number in range(2, 11):
+        left, right = rib_boxes(chest, f"rib {number}/cortex")
+        assert abs(left[1, 2] - right[1, 2]) < 0.5
+        lower.append(left[0, 2] - right[0, 2])
+    assert 0.2 < np.abs(lower).max() < 3.0
+    heads = rib_boxes(chest, "humerus/head")
+    assert 1.0 < heads[0][1, 2] - heads[1][1, 2] < 6.0
+
+
+def rib_boxes(chest: Phantom, name: str) -> list[Any]:
+    return [chest.leaf_bounds[chest.leaf_names.index(f"{s} {name}")] for s in ("left", "right")]
 
 
 def test_the_same_seed_is_the_same_person_and_everyone_is_a_chest() -> None:
