@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from make_contact_sheet import IMAGES, framed, side_by_side
 
-OFFSET_MM = [48.0, 12.0, 0.0]
+OFFSET_MM = [62.0, 12.0, 0.0]
 CLOSE = {
-    "view": {"preset": "cc", "isocentre": [48.0, -38.0, 0.0]},
-    "detector": {"columns": 800, "pitch_mm": 0.05},
+    "view": {"preset": "cc", "isocentre": [58.0, -38.0, 0.0]},
+    "detector": {"columns": 480, "rows": 480, "pitch_mm": 0.1},
 }
-"""40 mm about the lesions."""
+"""41 mm about the lesions, before the gland's edge."""
 
 CASES = (
     ("fatty, glandular share 0.06", "cc", {"glandular": 0.06, "seed": 3}, []),
@@ -17,10 +17,18 @@ CASES = (
     ("dense, 0.45", "cc", {"glandular": 0.45, "seed": 5}, []),
     ("mlo", "mlo", {"compression": "mlo"}, []),
     (
-        "a spiculated mass of 10 mm",
+        "a mass of 10 mm with spicules",
         "cc",
         {"seed": 3},
-        [{"type": "mass", "diameter_mm": 10.0, "offset_mm": OFFSET_MM}],
+        [
+            {
+                "type": "mass",
+                "diameter_mm": 10.0,
+                "spicules": 40,
+                "spicule_mm": 12.0,
+                "offset_mm": OFFSET_MM,
+            }
+        ],
     ),
     (
         "a mass without spicules",

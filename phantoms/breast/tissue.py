@@ -194,7 +194,7 @@ def lobules(
         step = branch.points[index + 1] - branch.points[index]
         at = branch.points[index] + (place - index) * step
         reach = float(np.linalg.norm(at - body.nipple)) / body.semi_axes[1]
-        center = at + generator.standard_normal(3) * (1.0 + (3.0 + 9.0 * share) * reach)
+        center = at + generator.standard_normal(3) * (1.0 + (2.0 + 15.0 * share) * reach)
         thin, flat, long = np.exp(generator.normal((-0.2, 0.35, 1.25), (0.6, 0.3, 0.35)))
         thin = min(thin, 2.2)
         turns = generator.standard_normal((2, 3))
