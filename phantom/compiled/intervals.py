@@ -45,16 +45,12 @@ class Interval:
             return other * self.low
         if other.low is other.high:
             return self * other.low
-        products = (
-            self.low * other.low,
-            self.low * other.high,
-            self.high * other.low,
-            self.high * other.high,
-        )
-        return Interval(
-            np.minimum(np.minimum(products[0], products[1]), np.minimum(products[2], products[3])),
-            np.maximum(np.maximum(products[0], products[1]), np.maximum(products[2], products[3])),
-        )
+        a, b = np.asarray(self.low * other.low), self.low * other.high
+        low, high = np.asarray(np.minimum(a, b)), np.maximum(a, b, out=a)
+        for product in (self.high * other.low, self.high * other.high):
+            np.minimum(low, product, out=low)
+            np.maximum(high, product, out=high)
+        return Interval(low, high)
 
     __rmul__ = __mul__
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import factorial
+from math import factorial, perm
 from typing import Protocol
 
 import numpy as np
@@ -57,8 +57,7 @@ class PiecewiseCurve:
         result = np.zeros((order + 1, len(u), 3))
         for k in range(order + 1):
             for power in range(coefficients.shape[1] - 1, k - 1, -1):
-                factor = float(np.prod(np.arange(power - k + 1, power + 1)))
-                result[k] = result[k] * local + factor * coefficients[:, power]
+                result[k] = result[k] * local + float(perm(power, k)) * coefficients[:, power]
         return result
 
 

@@ -43,11 +43,16 @@ def tangents(curve: Curve, u: Floats, piece: Ints) -> Floats:
     return unit(curve.derivatives(u, piece, 1)[1])
 
 
-def _projected(m: Floats, t: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the unit projection r1 of m across t, r2 = t x r1, and the projection's length."""
+def _across(m: Floats, t: Floats) -> tuple[Floats, Floats]:
+    """Return the unit projection of m across t, and the projection's length."""
     r1 = m - t * dots(m, t)[..., None]
     length = np.linalg.norm(r1, axis=-1)
-    r1 = r1 / length[..., None]
+    return r1 / length[..., None], length
+
+
+def _projected(m: Floats, t: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the unit projection r1 of m across t, r2 = t x r1, and the projection's length."""
+    r1, length = _across(m, t)
     return r1, np.cross(t, r1), length
 
 
@@ -170,7 +175,11 @@ class UpFrame:
 
     def normals(self, u: Floats, piece: Ints) -> Floats:
         """Project ``up`` across the tangent."""
-        return _projected(self.up, tangents(self.curve, u, piece))[0]
+        return self.beside(tangents(self.curve, u, piece))
+
+    def beside(self, t: Floats) -> Floats:
+        """Return n where the unit tangents are known."""
+        return _across(self.up, t)[0]
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,13 @@ from phantom.geometry.changing import morph
 from phantom.geometry.contours import Contour, contours, outline_hull, plane_outline
 from phantom.geometry.curves import Curve, curve
 from phantom.geometry.formula_sweeps import formula_sections
-from phantom.geometry.frames import Frame, RotationMinimizingFrame, frame, rotation_minimizing
+from phantom.geometry.frames import (
+    Frame,
+    RotationMinimizingFrame,
+    UpFrame,
+    frame,
+    rotation_minimizing,
+)
 from phantom.geometry.polynomials import interpolation_matrix, lobatto_nodes
 from phantom.geometry.refusal import RefusalError
 from phantom.geometry.star import chart_rays
@@ -175,7 +181,7 @@ def _sections(
 ) -> Sections:
     axis, first, second = curve.derivatives(u, piece, 2)
     t = first / np.linalg.norm(first, axis=1)[:, None]
-    n = frame.normals(u, piece)
+    n = frame.beside(t) if isinstance(frame, UpFrame) else frame.normals(u, piece)
     plane = np.stack([n, np.cross(t, n)], axis=-1)
     inverse = np.linalg.inv(maps) @ np.swapaxes(plane, 1, 2)
     middle = axis + np.einsum("nij,nj->ni", plane, in_plane)
