@@ -25,9 +25,9 @@ from phantoms.hand.abnormalities import (
 from phantoms.hand.frames import Frame
 from phantoms.hand.places import DIRECTIONS, bone_of, bowed_mm, half_mm, joint_of, point_at, touches
 from phantoms.hand.skeleton import SPACES, Break, Skeleton, beyond, met
-from phantoms.hand.soft import within_skin
+from phantoms.hand.soft import Skin
 from phantoms.hand.tubular import CORTEX, PLATE_MM
-from phantoms.parts import Station, ellipsoid
+from phantoms.parts import ellipsoid
 
 _SPARE_MM: Final = 0.2
 """Left between a lesion and the bone's surface, and between bone, foreign body and skin."""
@@ -68,7 +68,7 @@ class MisfitError(Exception):
         self.field, self.message, self.kind = field, message, kind
 
 
-def afflicted(hand: Hand, wrong: Sequence[Abnormality], outlines: Outlines) -> Hand:
+def afflicted(hand: Hand, wrong: Sequence[Abnormality], skin: Skin) -> Hand:
     """Return a healthy hand with what is wrong with it.
 
     Raises
@@ -88,7 +88,7 @@ def afflicted(hand: Hand, wrong: Sequence[Abnormality], outlines: Outlines) -> H
     order = sorted(range(len(wrong)), key=lambda index: isinstance(wrong[index], Fracture))
     for index in order:
         try:
-            hand = _APPLY[type(wrong[index])](hand, wrong[index], names[index], outlines)
+            hand = _APPLY[type(wrong[index])](hand, wrong[index], names[index], skin)
         except MisfitError as misfit:
             path = f"/abnormalities/{index}/{misfit.field}"
             problems.append(Problem(path, misfit.kind, misfit.message))
@@ -97,11 +97,7 @@ def afflicted(hand: Hand, wrong: Sequence[Abnormality], outlines: Outlines) -> H
     return hand
 
 
-Outlines = dict[str, list[Station]]
-"""The sections of the skin, by name of the part."""
-
-
-def _fracture(hand: Hand, wrong: Fracture, name: str, _: Outlines) -> Hand:
+def _fracture(hand: Hand, wrong: Fracture, name: str, _: Skin) -> Hand:
     place = bone_of(wrong.bone)
     placed = hand.bones.bones[place]
     if placed.broken is not None or placed.inside:
@@ -128,7 +124,7 @@ def _fracture(hand: Hand, wrong: Fracture, name: str, _: Outlines) -> Hand:
     return hand.found(finding, bones)
 
 
-def _lesion(hand: Hand, wrong: LyticLesion | BlasticLesion, name: str, _: Outlines) -> Hand:
+def _lesion(hand: Hand, wrong: LyticLesion | BlasticLesion, name: str, _: Skin) -> Hand:
     place = bone_of(wrong.bone)
     placed = hand.bones.bones[place]
     shape, outer = placed.shape, placed.shape.outer
@@ -162,7 +158,7 @@ def _lesion(hand: Hand, wrong: LyticLesion | BlasticLesion, name: str, _: Outlin
     return hand.found(finding, hand.bones.changed(place, inside=(*placed.inside, leaf)))
 
 
-def _osteoarthritis(hand: Hand, wrong: Osteoarthritis, name: str, _: Outlines) -> Hand:
+def _osteoarthritis(hand: Hand, wrong: Osteoarthritis, name: str, _: Skin) -> Hand:
     inner_name, outer_name = joint_of(wrong.joint)
     inner, outer = hand.bones.bones[inner_name], hand.bones.bones[outer_name]
     space, spur, dense = _GRADES[wrong.grade]
@@ -200,7 +196,7 @@ def _osteoarthritis(hand: Hand, wrong: Osteoarthritis, name: str, _: Outlines) -
     return hand.found(finding, bones)
 
 
-def _erosion(hand: Hand, wrong: Erosion, name: str, _: Outlines) -> Hand:
+def _erosion(hand: Hand, wrong: Erosion, name: str, _: Skin) -> Hand:
     _inner, place = joint_of(wrong.joint)
     placed = hand.bones.bones[place]
     sign = 1.0 if wrong.edge == "radial" else -1.0
@@ -215,7 +211,7 @@ def _erosion(hand: Hand, wrong: Erosion, name: str, _: Outlines) -> Hand:
     return hand.found(finding, hand.bones.changed(place, eroded=(*placed.eroded, bite)))
 
 
-def _foreign_body(hand: Hand, wrong: ForeignBody, name: str, outlines: Outlines) -> Hand:
+def _foreign_body(hand: Hand, wrong: ForeignBody, name: str, skin: Skin) -> Hand:
     placed = hand.bones.bones[bone_of(wrong.bone)]
     center = (wrong.aside_mm, -wrong.deep_mm, wrong.at * placed.shape.length_mm)
     size = (wrong.width_mm / 2, wrong.width_mm / 2, wrong.length_mm / 2)
@@ -226,7 +222,7 @@ def _foreign_body(hand: Hand, wrong: ForeignBody, name: str, outlines: Outlines)
         if touches(other, points):
             message = f"{where}, in or against the {' '.join(name_)}; expected it beside all bones"
             raise MisfitError("deep_mm", message)
-    if not all(within_skin(outlines, point) for point in points):
+    if not all(skin.holds(point) for point in points):
         message = f"{where}, through the skin; expected it within the hand"
         raise MisfitError("deep_mm", message)
     body = placed.frame.placed(

@@ -30,8 +30,8 @@ class Frame(NamedTuple):
         x, y, z = self.axes.T @ (point - self.origin)
         return (float(x), float(y), float(z))
 
-    def placed(self, name: str, solid: Solid) -> Transformed:
-        """Return a solid drawn in the bone's frame where the bone is."""
+    def placed(self, name: str | None, solid: Solid) -> Transformed:
+        """Return a solid drawn in the bone's frame where the bone is; None adds no name."""
         rows = np.column_stack([self.axes, self.origin])
         matrix = tuple(tuple(float(value) for value in row) for row in rows)
         return Transformed(type="transformed", name=name, solid=solid, matrix=matrix)
@@ -51,11 +51,11 @@ class Pose(NamedTuple):
 
 
 POSES: Final[dict[str, Pose]] = {
-    "thumb": Pose((28.1, -9.2, -9.2), (36.0, 30.0, 26.0), (-8.0, -4.0, 2.0), 38.0),
-    "index": Pose((15.6, 2.0, -4.6), (5.2, 8.5, 7.5, 6.5), (-1.5, -3.0, -2.0, 2.0)),
-    "middle": Pose((0.6, 2.5, 0.0), (1.0, 1.5, 0.5, -0.5), (-1.5, -3.0, -2.0, 2.0)),
-    "ring": Pose((-12.0, 2.0, -2.0), (-6.0, -6.0, -5.0, -4.0), (-2.0, -3.0, -2.0, 2.0)),
-    "little": Pose((-24.3, 0.0, -6.6), (-12.0, -16.0, -13.0, -10.0), (-2.0, -3.0, -2.0, 2.0)),
+    "thumb": Pose((29.4, -8.8, -8.9), (37.0, 30.0, 26.0), (-14.0, -8.0, -2.0), 38.0),
+    "index": Pose((15.4, 2.4, -4.7), (5.2, 8.5, 7.5, 6.5), (-1.5, -6.0, -6.0, -3.0)),
+    "middle": Pose((0.6, 2.5, 0.0), (1.0, 1.5, 0.5, -0.5), (-1.5, -3.0, -3.0, 0.0)),
+    "ring": Pose((-12.1, 1.8, -2.3), (-6.0, -6.0, -5.0, -4.0), (-2.0, -0.5, -1.0, 1.0)),
+    "little": Pose((-22.9, 0.0, -4.4), (-12.0, -16.0, -13.0, -10.0), (-3.0, 2.0, 1.0, 3.0)),
 }
 
 KINDS: Final[dict[str, tuple[str, ...]]] = {

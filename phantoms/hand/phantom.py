@@ -23,9 +23,10 @@ from phantoms.hand.lengths import BONES
 from phantoms.hand.parameters import Parameters, of_person
 from phantoms.hand.sizes import DIGITS, DISTAL
 from phantoms.hand.skeleton import Skeleton, skeleton
-from phantoms.hand.soft import FAT, SKIN, SOFT, envelope, outlines
+from phantoms.hand.soft import FAT, SKIN, SOFT, Skin, envelope
+from phantoms.hand.soft import skin as skin_of
 from phantoms.hand.tubular import CORTEX, MARROW, SPONGIOSA
-from phantoms.parts import Station, layered, sided, sided_point, union
+from phantoms.parts import layered, sided, sided_point, union
 from phantoms.people import cortical_density_g_cm3, spongiosa_density_g_cm3
 
 SOURCES: Final = (
@@ -47,6 +48,8 @@ _SUMMARY: Final = (
     " palm down, fingers slightly spread."
 )
 _MIDDLE: Final = (12.0, 0.0, 54.0)
+_FIELD_MM: Final = 280.0
+"""Of all views: the fingertips of nearly everybody fall within, the forearm's cut end outside."""
 
 
 def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> Document:
@@ -82,12 +85,12 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
     )
 
 
-def _skin(bones: Skeleton) -> dict[str, list[Station]]:
+def _skin(bones: Skeleton) -> Skin:
     frames: dict[str, list[Frame]] = {
         digit: [bones.bones[digit, kind].frame for kind in KINDS[digit]] for digit in DIGITS
     }
     ends: dict[str, float] = {digit: bones.bones[digit, DISTAL].shape.length_mm for digit in DIGITS}
-    return outlines(bones.scale, frames, ends)
+    return skin_of(bones.scale, frames, ends)
 
 
 def _materials(chosen: Parameters) -> dict[str, Material]:
@@ -141,9 +144,10 @@ entry = Entry(
     technique=Technique(
         kvp=50.0,
         source_detector_mm=1000.0,
-        object_detector_mm=35.0,
+        object_detector_mm=45.0,
         window=(1.15, 2.3),
         air_kerma_ugy=2.5,
+        field_mm=_FIELD_MM,
     ),
     techniques={
         "rao": Technique(
@@ -152,13 +156,15 @@ entry = Entry(
             object_detector_mm=60.0,
             window=(1.35, 2.7),
             air_kerma_ugy=2.5,
+            field_mm=_FIELD_MM,
         ),
         "mediolateral": Technique(
             kvp=50.0,
             source_detector_mm=1000.0,
             object_detector_mm=75.0,
-            window=(2.6, 5.0),
+            window=(2.8, 5.6),
             air_kerma_ugy=2.5,
+            field_mm=_FIELD_MM,
         ),
     },
     abnormalities=ABNORMALITIES,

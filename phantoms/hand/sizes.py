@@ -42,10 +42,10 @@ class Width(NamedTuple):
 WIDTHS: Final[dict[str, dict[str, Width]]] = {
     METACARPAL: {
         "thumb": Width(15.5, 11.2, 14.8, 14.5, 8.6, 12.2),
-        "index": Width(15.4, 8.9, 15.4, 15.5, 9.4, 14.8),
+        "index": Width(14.4, 8.9, 15.4, 15.5, 9.4, 14.8),
         "middle": Width(13.3, 8.9, 15.0, 16.0, 9.6, 15.0),
-        "ring": Width(11.2, 7.2, 13.0, 13.5, 8.0, 13.0),
-        "little": Width(11.8, 7.8, 12.4, 11.5, 7.4, 12.0),
+        "ring": Width(10.6, 7.2, 13.0, 13.5, 8.0, 13.0),
+        "little": Width(10.6, 7.6, 12.4, 11.5, 7.4, 12.0),
     },
     PROXIMAL: {
         "thumb": Width(15.0, 9.2, 12.4, 11.5, 6.8, 8.4),
@@ -71,12 +71,13 @@ WIDTHS: Final[dict[str, dict[str, Width]]] = {
 
 # Place as a share of the length, then how much of the way from the shaft's size to the end's.
 _METACARPAL_BASE: Final = (
-    (0.0, 0.86),
-    (0.035, 1.0),
-    (0.09, 0.9),
-    (0.17, 0.52),
-    (0.27, 0.2),
-    (0.40, 0.03),
+    (0.0, 0.8),
+    (0.012, 0.94),
+    (0.045, 1.0),
+    (0.10, 0.84),
+    (0.18, 0.48),
+    (0.28, 0.17),
+    (0.40, 0.02),
 )
 _PHALANX_BASE: Final = ((0.025, 0.92), (0.085, 1.0), (0.17, 0.72), (0.27, 0.33), (0.40, 0.07))
 # Place back from the plane through the head's middle.

@@ -16,6 +16,7 @@ from phantoms.hand.lengths import field as field_of
 from phantoms.hand.parameters import Parameters, shaft_index
 from phantoms.hand.sizes import DIGITS, METACARPAL, MIDDLE, PROXIMAL, WIDTHS
 from phantoms.hand.tubular import Shape, bone
+from phantoms.hand.wrist import carpal_hollows, saddle
 from phantoms.parts import named, union
 
 SPACES: Final = {METACARPAL: 1.0, PROXIMAL: 0.8, MIDDLE: 0.65}
@@ -88,7 +89,7 @@ class Skeleton:
         thumb = self.bones["thumb", METACARPAL]
         return [
             *forearm(self.scale),
-            *carpus(self.scale),
+            *carpus(self.scale, *saddle(self.scale, thumb.frame)),
             *(placed.solid(" ".join(name)) for name, placed in self.bones.items()),
             *sesamoids(self.scale, thumb.frame, thumb.shape.length_mm),
         ]
@@ -107,6 +108,8 @@ def skeleton(parameters: Parameters) -> Skeleton:
             width = WIDTHS[kind][digit].times(scale)
             share = shaft_index(kind, parameters.value("metacarpal_index"))
             shape = Shape(kind, width, lengths[index], share * width.shaft / 2)
+            if kind == METACARPAL:
+                shape = shape._replace(hollows=carpal_hollows(digit, scale))
             made[digit, kind] = Placed(frames[index], shape)
         for inner, outer, gap in zip(kinds, kinds[1:], gaps, strict=False):
             made[digit, outer] = met(made[digit, outer], made[digit, inner], gap)

@@ -1,22 +1,25 @@
 """The hand's soft tissue: skin, the fat under it, and the rest, each within the one before.
 
-Fingers are tapered tubes along their bones; the palm, the ball of the thumb and the web beside it
-join them. Thicknesses are estimates.
+Fingers are tapered tubes along their bones with round tips; the palm, the webs between the fingers,
+and the web between thumb and palm join them. Thicknesses are estimates.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Final
+from itertools import pairwise
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from phantom.document import Point, Solid
+from phantom.document import Point, Solid, Vector
 from phantoms.hand.forearm import END_Z_MM
 from phantoms.hand.frames import FloatArray, Frame
+from phantoms.hand.rows import Row, times, upright
+from phantoms.hand.sizes import DIGITS
 from phantoms.inside import inside
-from phantoms.parts import ROUND, Outline, Station, layered, swept, union, within
+from phantoms.parts import ROUND, Outline, Station, ellipsoid, layered, swept, union, within
 
 SKIN, FAT, SOFT = "skin", "fat", "soft tissue"
 SKIN_MM: Final = 1.2
@@ -24,67 +27,96 @@ TIP_MM: Final = {"thumb": 5.7, "index": 3.8, "middle": 4.0, "ring": 4.0, "little
 """Soft tissue beyond the bone of each fingertip (Buryanov and Kotiuk 2010)."""
 
 # Half-width and half-depth at: middle of the metacarpal, its head, middle of the proximal phalanx,
-# PIP joint, middle of the middle phalanx, DIP joint, tuft; for the thumb without the fourth pair.
+# PIP joint, middle of the middle phalanx, DIP joint, tuft; for the thumb at the wrist, the middle
+# of the metacarpal, its head, middle of the proximal phalanx, IP joint, tuft.
 _TUBES: Final[dict[str, tuple[tuple[float, float], ...]]] = {
-    "thumb": ((7.0, 8.0), (15.0, 12.5), (12.8, 11.5), (10.8, 9.6), (10.9, 9.0), (9.0, 6.8)),
+    "thumb": ((9.5, 9.5), (14.8, 12.5), (12.2, 11.2), (11.0, 9.8), (10.9, 9.0), (9.6, 7.0)),
     "index": (
-        (6.0, 6.5), (10.6, 11.4), (9.8, 9.6), (9.6, 8.9), (8.6, 7.8), (8.3, 7.0), (6.8, 5.6),
+        (6.0, 6.5), (10.8, 11.4), (10.0, 9.8), (9.7, 8.9), (8.7, 7.9), (8.4, 7.1), (7.3, 5.7),
     ),
     "middle": (
-        (6.0, 6.5), (10.8, 11.6), (10.0, 9.8), (9.8, 9.1), (8.8, 8.0), (8.5, 7.1), (7.0, 5.7),
+        (6.0, 6.5), (11.0, 11.6), (10.2, 10.0), (9.9, 9.1), (8.9, 8.1), (8.6, 7.2), (7.5, 5.8),
     ),
     "ring": (
-        (6.0, 6.5), (10.2, 11.2), (9.5, 9.4), (9.3, 8.7), (8.3, 7.6), (8.0, 6.8), (6.6, 5.5),
+        (6.0, 6.5), (10.4, 11.2), (9.7, 9.6), (9.4, 8.7), (8.4, 7.7), (8.1, 6.9), (7.1, 5.6),
     ),
     "little": (
-        (6.0, 6.0), (9.4, 10.4), (8.5, 8.4), (8.2, 7.7), (7.3, 6.7), (7.1, 6.0), (5.9, 4.9),
+        (6.0, 6.0), (9.6, 10.4), (8.7, 8.6), (8.3, 7.7), (7.4, 6.8), (7.2, 6.1), (6.3, 5.0),
     ),
 }  # fmt: skip
-# z, x of the little finger's side and of the thumb's, y of the palm and of the back.
-_PALM: Final = (
-    (END_Z_MM, -29.4, 25.6, -18.8, 16.0),
-    (-64.0, -29.8, 26.5, -18.6, 15.5),
-    (-50.0, -30.8, 28.5, -18.4, 15.0),
-    (-35.0, -32.8, 30.8, -19.0, 14.5),
-    (-18.0, -36.5, 33.6, -19.6, 14.0),
-    (0.0, -40.0, 33.8, -19.2, 13.2),
-    (18.0, -43.0, 32.0, -18.0, 12.4),
-    (36.0, -45.0, 32.5, -16.5, 11.8),
-    (48.0, -43.5, 34.0, -15.0, 10.5),
-    (58.0, -38.0, 34.5, -13.5, 9.5),
-    (67.0, -30.0, 33.0, -12.0, 8.0),
-    (74.0, -22.0, 30.0, -10.0, 6.0),
-    (80.0, -12.0, 24.0, -7.0, 3.0),
-    (82.5, -5.0, 17.0, -4.5, 0.5),
+_PALM: Final[tuple[Row, ...]] = (
+    (END_Z_MM, -31.5, 26.0, -23.0, 18.5),
+    (-80.0, -30.2, 26.0, -20.6, 16.8),
+    (-55.0, -30.6, 28.4, -19.0, 15.2),
+    (-30.0, -33.6, 31.4, -19.8, 14.2),
+    (-4.0, -39.4, 33.8, -19.8, 13.4),
+    (24.0, -43.4, 32.6, -18.0, 12.2),
+    (46.0, -42.6, 33.4, -15.4, 10.4),
+    (60.0, -36.0, 33.0, -13.0, 8.6),
+    (70.0, -22.0, 28.0, -10.0, 5.6),
 )
-_OUTLINES: Final[dict[str, Outline]] = {
-    "palm": tuple(
-        (
-            math.copysign(abs(math.cos(angle)) ** 0.72, math.cos(angle)),
-            math.copysign(abs(math.sin(angle)) ** 0.72, math.sin(angle)),
-        )
-        for angle in (math.pi * (index + 0.5) / 10 for index in range(20))
+_SQUARE: Final[Outline] = tuple(
+    (
+        math.copysign(abs(math.cos(angle)) ** 0.72, math.cos(angle)),
+        math.copysign(abs(math.sin(angle)) ** 0.72, math.sin(angle)),
     )
-}
-"""Sections that are no ellipses: the palm's are squarer."""
-
-# The web between thumb and index: a fold from the palm's edge, as sections across its length.
-_WEB: Final = (
-    ((10.0, -6.5, -14.0), 16.0, 9.0),
-    ((20.0, -6.5, -4.0), 20.0, 9.8),
-    ((29.0, -6.2, 5.5), 20.5, 9.6),
-    ((35.5, -5.8, 13.0), 18.0, 8.6),
-    ((40.0, -5.4, 19.0), 14.0, 7.2),
-    ((42.8, -5.0, 23.4), 9.5, 5.4),
-    ((44.4, -5.0, 26.0), 5.5, 3.4),
-    ((45.2, -5.0, 27.2), 2.2, 1.6),
+    for angle in (math.pi * (index + 0.5) / 8 for index in range(16))
 )
+"""The palm's sections are squarer than ellipses."""
+
+# The web between thumb and palm hangs between them like a hammock: the line of its sections'
+# middles, half their thickness, and how far they reach to the wrist and to the free edge.
+_THUMB_WEB: Final = (
+    ((24.0, -5.0, 51.0), 6.5, 9.0, 3.5),
+    ((30.0, -7.5, 36.0), 8.0, 16.0, 4.0),
+    ((39.5, -12.0, 25.5), 8.6, 20.0, 4.0),
+    ((52.0, -18.0, 22.0), 9.0, 16.0, 4.0),
+)
+# The webs between the fingers: place along both proximal phalanges, and semi-axes.
+_WEBS: Final = {
+    "index": (0.16, (8.5, 8.0, 11.5)),
+    "middle": (0.16, (8.0, 8.0, 11.5)),
+    "ring": (0.14, (8.5, 7.6, 11.0)),
+}
 
 
-def outlines(
-    scale: float, frames: Mapping[str, Sequence[Frame]], ends_mm: Mapping[str, float]
-) -> dict[str, list[Station]]:
-    """Return the sections of the skin, by name of the part.
+_MIDDLE: Final = (0.0, 0.0, 0.0)
+_LEAST_MM: Final = 0.3
+"""Half-width of what is left where the layers outside it are thicker than the finger."""
+
+
+class Ball(NamedTuple):
+    """An ellipsoid about the origin of a frame: a fingertip, or the web beside a finger."""
+
+    frame: Frame
+    semi_axes: Point
+
+    def within(self, depth_mm: float) -> Point:
+        """Return the semi-axes of what lies that deep inside."""
+        a, b, c = (max(axis - depth_mm, _LEAST_MM) for axis in self.semi_axes)
+        return (a, b, c)
+
+    def holds(self, point: FloatArray, margin_mm: float) -> bool:
+        """Whether a point lies inside, that far from the surface."""
+        away = np.array(self.frame.local(point))
+        return bool(np.linalg.norm(away / self.within(margin_mm)) < 1.0)
+
+
+class Skin(NamedTuple):
+    """The surface of the hand: swept parts by their sections, and balls, each by name."""
+
+    tubes: Mapping[str, Sequence[Station]]
+    balls: Mapping[str, Ball]
+
+    def holds(self, point: FloatArray) -> bool:
+        """Whether a point is under the skin, as seen from the sections it lies between."""
+        return any(
+            inside(stations, point, SKIN_MM, _up(name)) for name, stations in self.tubes.items()
+        ) or any(ball.holds(point, SKIN_MM) for ball in self.balls.values())
+
+
+def skin(scale: float, frames: Mapping[str, Sequence[Frame]], ends_mm: Mapping[str, float]) -> Skin:
+    """Return the surface of the hand.
 
     Parameters
     ----------
@@ -95,85 +127,105 @@ def outlines(
     ends_mm
         Length of each ray's distal phalanx.
     """
-    outer = {digit: _tube(digit, scale, frames[digit], ends_mm[digit]) for digit in frames}
-    outer["palm"] = _palm(scale)
-    outer["web"] = [
-        _round(_times(at, scale), scale * wide, scale * deep) for at, wide, deep in _WEB
+    tubes = {digit: _tube(digit, scale, frames[digit], ends_mm[digit]) for digit in frames}
+    tubes["palm"] = upright(_PALM, scale)
+    tubes["thumb web"] = [
+        Station(
+            times(at, scale), (-scale * thick, scale * thick), (-scale * inward, scale * outward)
+        )
+        for at, thick, inward, outward in _THUMB_WEB
     ]
-    return outer
+    balls = {f"{digit} tip": _tip(digit, scale, frames[digit], ends_mm[digit]) for digit in frames}
+    for one, two in pairwise(DIGITS[1:]):
+        balls[f"{one} web"] = _web(one, scale, frames[one], frames[two])
+    return Skin(tubes, balls)
 
 
-def envelope(outer: Mapping[str, Sequence[Station]], fat_mm: float) -> Solid:
-    """Return the soft tissue, outermost first, within the sections of the skin."""
+def envelope(outer: Skin, fat_mm: float) -> Solid:
+    """Return the soft tissue, outermost first, within the skin."""
     layers = []
     for material, depth in ((SKIN, 0.0), (FAT, SKIN_MM), (SOFT, SKIN_MM + fat_mm)):
-        parts = [
+        swept_parts: list[Solid] = [
             swept(
-                f"{name} {material}", _inside(stations, depth), material, _OUTLINES.get(name, ROUND)
+                f"{name} {material}",
+                _inside(stations, depth, closed=name == "palm"),
+                material,
+                _SQUARE if name == "palm" else ROUND,
+                up=_up(name),
             )
-            for name, stations in outer.items()
+            for name, stations in outer.tubes.items()
         ]
-        layers.append(union(*parts))
+        balls: list[Solid] = [
+            ball.frame.placed(
+                None,
+                ellipsoid(f"{name} {material}", _MIDDLE, ball.within(depth), material),
+            )
+            for name, ball in outer.balls.items()
+        ]
+        layers.append(union(*swept_parts, *balls))
     return layered(*layers)
 
 
-def within_skin(outer: Mapping[str, Sequence[Station]], point: FloatArray) -> bool:
-    """Whether a point is under the skin, as seen from the sections it lies between."""
-    return any(inside(stations, point, SKIN_MM) for stations in outer.values())
-
-
-def _inside(stations: Sequence[Station], depth_mm: float) -> Sequence[Station]:
+def _inside(stations: Sequence[Station], depth_mm: float, closed: bool) -> Sequence[Station]:
     if depth_mm == 0.0:
         return stations
-    return within(stations, depth_mm, closed=(False, True), least_mm=0.3)
+    return within(stations, depth_mm, closed=(False, closed), least_mm=_LEAST_MM)
 
 
 def _tube(digit: str, scale: float, frames: Sequence[Frame], end_mm: float) -> list[Station]:
-    """Return the sections of a finger, from the middle of its metacarpal to its tip."""
+    """Return the sections of a finger, from the middle of its metacarpal to its tuft."""
     last = len(frames) - 1
     points = [0.5 * (frames[0].origin + frames[1].origin)]
     if digit == "thumb":
-        points.insert(0, frames[0].point((-6.0 * scale, 0.0, -12.0 * scale)))
+        points.insert(0, frames[0].point(times((-4.5, -0.5, -20.0), scale)))
     for index in range(1, last):
         points += [frames[index].origin, 0.5 * (frames[index].origin + frames[index + 1].origin)]
-    points.append(frames[last].origin)
-    points.append(frames[last].point((0.0, 0.0, 0.78 * end_mm)))
-    sizes = list(_TUBES[digit])
-    down = np.array([0.0, -1.2 * scale, 0.0])
-    made = [
+    points += [frames[last].origin, frames[last].point((0.0, 0.0, _TUFT * end_mm))]
+    down = _down(scale)
+    return [
         _round(tuple(point + down), scale * wide, scale * deep)
-        for point, (wide, deep) in zip(points, sizes, strict=True)
+        for point, (wide, deep) in zip(points, _TUBES[digit], strict=True)
     ]
-    # The tip is round: a quarter of an ellipse beyond the tuft's middle.
-    reach = 0.22 * end_mm + scale * TIP_MM[digit]
-    wide, deep = sizes[-1]
-    for share in (0.35, 0.62, 0.82, 0.94, 1.0):
-        around = max((1 - share**2.2) ** (1 / 2.2), 0.12)
-        point = frames[last].point((0.0, 0.0, 0.78 * end_mm + share * reach)) + down
-        made.append(_round(tuple(point), scale * wide * around, scale * deep * around))
-    return made
 
 
-def _palm(scale: float) -> list[Station]:
-    made = []
-    for z, low, high, palm, back in _PALM:
-        x, y = (low + high) / 2, (palm + back) / 2
-        wide, deep = (high - low) / 2, (back - palm) / 2
-        made.append(
-            Station(
-                (0.0, scale * -3.0, scale * z),
-                (scale * (x - wide), scale * (x + wide)),
-                (scale * (y + 3.0 - deep), scale * (y + 3.0 + deep)),
-            )
-        )
-    return made
+_TUFT: Final = 0.72
+"""Where the round tip of a finger begins, as a share of the distal phalanx."""
+
+
+def _tip(digit: str, scale: float, frames: Sequence[Frame], end_mm: float) -> Ball:
+    """Return the round end of a finger; its sections lie as those of the tube before it."""
+    along = frames[-1].axes[:, 2]
+    across = np.array(_up(digit)) - along[0] * along
+    across /= np.linalg.norm(across)
+    axes = np.column_stack([across, np.cross(along, across), along])
+    wide, deep = _TUBES[digit][-1]
+    center = frames[-1].point((0.0, 0.0, _TUFT * end_mm)) + _down(scale)
+    reach = (1.0 - _TUFT) * end_mm + scale * TIP_MM[digit]
+    return Ball(Frame(center, axes), (scale * wide, scale * deep, reach))
+
+
+def _web(digit: str, scale: float, one: Sequence[Frame], two: Sequence[Frame]) -> Ball:
+    """Return the web between a finger and the next, half-way between their bones."""
+    share, size = _WEBS[digit]
+    ends = [
+        ray[1].origin + share * (ray[2].origin - ray[1].origin) + _down(scale) for ray in (one, two)
+    ]
+    axes = one[1].axes + two[1].axes
+    # The nearest rotation to the mean of both fingers' axes.
+    left, _, right = np.linalg.svd(axes)
+    return Ball(Frame(0.5 * (ends[0] + ends[1]), left @ right), times(size, scale))
+
+
+def _up(name: str) -> Vector:
+    """Return the direction that n of a part's sections stays nearest to."""
+    return (0.0, 1.0, 0.0) if name == "thumb web" else (1.0, 0.0, 0.0)
+
+
+def _down(scale: float) -> FloatArray:
+    """How far the flesh lies more on the palm's side than the bones."""
+    return np.array([0.0, -1.2 * scale, 0.0])
 
 
 def _round(at: tuple[float, ...], wide: float, deep: float) -> Station:
     x, y, z = (float(value) for value in at)
     return Station((x, y, z), (-wide, wide), (-deep, deep))
-
-
-def _times(point: Point, by: float) -> Point:
-    x, y, z = point
-    return (by * x, by * y, by * z)

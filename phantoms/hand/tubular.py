@@ -144,7 +144,7 @@ def bone(
     def kept(knob: Knob) -> bool:
         return all(knob.reaches(cut) for cut in cuts)
 
-    spongy = within(outer, shape.walls(outer), closed=(True, shape.kind == DISTAL))
+    spongy = within(outer, shape.walls(outer), closed=(True, shape.kind == DISTAL), count=9)
     whole = union(
         swept("cortex", outer, CORTEX, cuts=cuts),
         *(knob.solid(knob.name, CORTEX, cuts) for knob in shape.knobs if kept(knob)),
@@ -160,20 +160,13 @@ def bone(
     )
     plates = [knob.grown(shape.plate_mm[0]) for knob in shape.hollows]
     canal = _canal(spongy, shape)
-    middle = Knob("marrow", (0.0, 0.0, (canal[0].at[2] + canal[-1].at[2]) / 2), _reach(canal))
     made = layered(
         _hollowed(whole, shape.hollows, "hollow"),
         _hollowed(core, plates, "inner hollow"),
-        *([swept("marrow", canal, MARROW, cuts=cuts)] if kept(middle) else []),
+        *([canal.solid("marrow", MARROW, cuts)] if kept(canal) else []),
         *inside,
     )
     return Difference(type="difference", solids=(made, *eroded)) if eroded else made
-
-
-def _reach(rows: Sequence[Station]) -> Point:
-    """Return the semi-axes of an ellipsoid that lies in a canal, about its middle."""
-    middle = rows[len(rows) // 2]
-    return (0.5 * middle.x[1], 0.5 * middle.b[1], 0.98 * (rows[-1].at[2] - rows[0].at[2]) / 2)
 
 
 def _knob(spur: Ellipsoid) -> Knob:
@@ -184,22 +177,22 @@ def _under(shape: Shape) -> float:
     return min(shape.plate_mm[1], 0.45 * min(min(knob.semi_axes) for knob in shape.knobs))
 
 
-def _canal(spongy: Sequence[Station], shape: Shape) -> list[Station]:
-    """Return the sections of the marrow canal: the inside of the shaft, closed at both ends."""
-    first, last = (0.1, 0.88) if shape.kind != DISTAL else (0.2, 0.74)
-    z = np.array([station.at[2] for station in spongy]) / shape.length_mm
-    y = np.array([station.at[1] for station in spongy])
-    wide = np.array([station.x[1] for station in spongy])
-    deep = np.array([station.b[1] for station in spongy])
-    places = np.linspace(first, last, 9)
-    made = []
-    for place in places:
-        share = abs(2 * (place - first) / (last - first) - 1)
-        taper = 0.95 * (1 - share**2.5) ** 0.8 + 0.02
-        x, b = taper * np.interp(place, z, wide), taper * np.interp(place, z, deep)
-        at = (0.0, float(np.interp(place, z, y)), float(place * shape.length_mm))
-        made.append(Station(at, (-float(x), float(x)), (-float(b), float(b))))
-    return made
+def _canal(spongy: Sequence[Station], shape: Shape) -> Knob:
+    """Return the marrow canal: the thickest ellipsoid of its length within the spongiosa."""
+    first, last = (0.08, 0.9) if shape.kind != DISTAL else (0.2, 0.74)
+    z = [station.at[2] / shape.length_mm for station in spongy]
+    middle = (first + last) / 2
+    # How far the bone's wall is, at places all along, from the ellipsoid's own straight axis.
+    share = np.linspace(-0.97, 0.97, 39)
+    places = middle + share * (last - first) / 2
+    y = np.interp(places, z, [station.at[1] for station in spongy])
+    y0 = float(np.interp(middle, z, [station.at[1] for station in spongy]))
+    wide = np.interp(places, z, [station.x[1] for station in spongy])
+    deep = np.interp(places, z, [station.b[1] for station in spongy])
+    least = 0.98 / np.sqrt(1 - share**2)
+    a, b = (least * wide).min(), (least * (deep - abs(y - y0))).min()
+    size = (float(a), max(float(b), 0.2), (last - first) / 2 * shape.length_mm)
+    return Knob("marrow", (0.0, y0, middle * shape.length_mm), size)
 
 
 def _hollowed(solid: Solid, hollows: Sequence[Knob], name: str) -> Solid:
