@@ -40,6 +40,10 @@ class InvalidInputError(PhantomError):
         self.problems: tuple[Problem, ...] = tuple(problems)
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
+    def __reduce__(self) -> tuple[type[InvalidInputError], tuple[tuple[Problem, ...]]]:
+        """Travel to another process with the problems, and not as their text."""
+        return type(self), (self.problems,)
+
 
 class InvalidDocumentError(InvalidInputError):
     """A phantom document was refused; paths are those of the document."""

@@ -138,7 +138,7 @@ def _make(
     from phantom import datasets
     from phantom.cli.engine import ready
     from phantom.datasets.finishing import Finished
-    from phantom.datasets.ledger import DiskFullError
+    from phantom.datasets.ledger import HaltedError
     from phantom.datasets.running import WorkersLostError
     from phantom.datasets.storage import storage
 
@@ -158,7 +158,7 @@ def _make(
 
         try:
             made = datasets.make(design, output, run, progress=progress)
-        except (DiskFullError, WorkersLostError) as error:
+        except (HaltedError, WorkersLostError) as error:
             say(f"{error}; what is finished is kept, and the same command goes on with it")
             raise typer.Exit(OUR_FAULT) from None
     if isinstance(made, Finished):
@@ -197,11 +197,13 @@ def _part(shard: str | None) -> Part:
 
 def _tell(made: Finished, output: str, *, as_json: bool) -> None:
     """Say what a set came to; leave with 1 where images had to be set aside."""
+    from phantom.datasets.storage import sized
+
     if as_json:
         aside = [{"index": number, "error": error} for number, error in made.aside]
         answer({"output": output, "images": made.images, "bytes": made.bytes, "set_aside": aside})
     else:
-        say(f"made {made.images} images, {_size(made.bytes)}, in {output}")
+        say(f"made {made.images} images, {sized(made.bytes)}, in {output}")
         for number, error in made.aside[:20]:
             say(f"set aside image {number}: {error}")
     if made.aside:
@@ -209,6 +211,8 @@ def _tell(made: Finished, output: str, *, as_json: bool) -> None:
 
 
 def _foretell(found: Forecast, *, as_json: bool) -> None:
+    from phantom.datasets.storage import sized
+
     if as_json:
         answer(found.told())
         return
@@ -219,19 +223,11 @@ def _foretell(found: Forecast, *, as_json: bool) -> None:
         answer(f"  cases with {kind}: {count}")
     if found.shards:
         answer(f"  as {found.shards} WebDataset shards")
-    answer(f"about {_size(found.bytes)}, {_size(found.image_bytes)} an image")
+    answer(f"about {sized(found.bytes)}, {sized(found.image_bytes)} an image")
     each = f"{found.image_seconds:.2g} s an image on one thread"
     answer(f"about {_time(found.seconds)} with {found.workers} workers, {each}")
     for warning in found.warnings:
         answer(f"warning {warning}")
-
-
-def _size(count: float) -> str:
-    for unit in ("bytes", "kB", "MB", "GB"):
-        if count < 1000:
-            return f"{count:.3g} {unit}"
-        count /= 1000
-    return f"{count:.3g} TB"
 
 
 def _time(seconds: float) -> str:

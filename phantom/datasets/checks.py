@@ -13,7 +13,7 @@ from phantom.datasets.draws import ends
 from phantom.datasets.making import Maker
 from phantom.datasets.places import ROUNDING, people_of_splits, place
 from phantom.datasets.sampling import combinations, exposure, request
-from phantom.datasets.storage import Storage
+from phantom.datasets.storage import Storage, sized
 from phantom.document import Model, validate_model
 from phantom.document.words import arranged
 from phantom.errors import InvalidInputError, Problem, pointer, prefixed
@@ -226,8 +226,8 @@ def check_room(design: Design, planned: RadiographPlan, where: Storage) -> None:
     free, needed = where.free_bytes(), expected_bytes(design, planned)
     if free is not None and needed > free:
         message = (
-            f"found {free / 1e9:.3g} GB free at {where.address!r};"
-            f" expected {needed / 1e9:.3g} GB, for {design.images} images"
+            f"found {sized(free)} free at {where.address!r};"
+            f" expected {sized(needed)}, for {design.images} images"
         )
         raise InvalidInputError([Problem("/output", "disk_too_small", message)])
 

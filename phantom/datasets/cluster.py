@@ -13,12 +13,12 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from phantom.datasets.design import Design
-from phantom.datasets.ledger import Counts, DiskFullError, Ledger
+from phantom.datasets.ledger import Counts, HaltedError, Ledger, room
 from phantom.datasets.making import Maker
 from phantom.datasets.opening import of_tree
 from phantom.datasets.places import units
 from phantom.datasets.running import WorkersLostError
-from phantom.datasets.storage import Storage, storage
+from phantom.datasets.storage import Storage, check_shared, storage
 from phantom.datasets.units import Record, make_image, make_shard, worded
 from phantom.errors import InvalidInputError, Problem
 
@@ -42,6 +42,8 @@ def make_chunk(tree: dict[str, Any], address: str, unit: int | None, numbers: li
     design = of_tree(tree)
     maker, where = Maker(design, threads=1), storage(address, f"cluster-{secrets.token_hex(4)}")
     found: Outcome = []
+    with room():
+        check_shared(where)
     if unit is not None:
         everything = units(design)
         own = everything[unit]
@@ -56,7 +58,7 @@ def make_chunk(tree: dict[str, Any], address: str, unit: int | None, numbers: li
     for number in numbers:
         try:
             found.append(make_image(maker, where, number))
-        except DiskFullError:
+        except HaltedError:
             raise
         except Exception as error:
             found.append((number, worded(error)))
@@ -100,7 +102,8 @@ def _connected(address: str) -> Any:
     try:
         return Client(address, timeout=CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, TimeoutError, ValueError) as error:
-        message = f"found {address[:80]!r}, where no scheduler answers: {worded(error)}"
+        said = worded(error)
+        message = f"found {address[:80]!r}, where no scheduler answers ({said}); expected one"
         raise InvalidInputError([Problem("/scheduler", "unreachable", message)]) from None
 
 
@@ -138,12 +141,12 @@ class _Dispatch:
     def _send(self) -> None:
         """Send single images that are under suspicion, then chunks, as many as are worked at."""
         threads = sum(self._client.nthreads().values())
-        room = AHEAD * max(1, threads) - len(self._sent)
-        while self._alone and room > 0:
+        wanted = AHEAD * max(1, threads) - len(self._sent)
+        while self._alone and wanted > 0:
             owner, number = self._alone.pop()
             self._submit(owner, None, [number])
-            room -= 1
-        for _ in range(room):
+            wanted -= 1
+        for _ in range(wanted):
             owner, numbers, unit = secrets.token_hex(8), list[int](), None
             while len(numbers) < CHUNK_IMAGES:
                 claim = self._ledger.claim(owner, time.time(), self._lease_s * CHUNK_IMAGES)
@@ -191,7 +194,7 @@ class _Dispatch:
     def _gone_wrong(
         self, owner: str, unit: int | None, numbers: list[int], error: BaseException | None
     ) -> None:
-        if isinstance(error, DiskFullError):
+        if isinstance(error, HaltedError | InvalidInputError):
             raise error
         if unit is None and len(numbers) > 1:
             self._alone += [(owner, number) for number in numbers]

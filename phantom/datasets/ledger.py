@@ -61,7 +61,21 @@ _FULL: Final = (
 """What SQLite says of a drive without room; the log's index is met before the log itself."""
 
 
-class DiskFullError(PhantomError):
+_UNUSABLE: Final = (
+    sqlite3.SQLITE_IOERR,
+    sqlite3.SQLITE_READONLY,
+    sqlite3.SQLITE_CANTOPEN,
+    sqlite3.SQLITE_CORRUPT,
+    sqlite3.SQLITE_NOTADB,
+)
+"""What it says of a file that cannot be a ledger, by the last eight bits."""
+
+
+class HaltedError(PhantomError):
+    """The set or its ledger cannot be read or written; what is finished is kept."""
+
+
+class DiskFullError(HaltedError):
     """No room is left for the set or its ledger; what is finished is kept."""
 
 
@@ -205,6 +219,14 @@ class Ledger:
         found = dict(self._file.execute("SELECT state, count(*) FROM image GROUP BY state"))
         return Counts(*(found.get(state, 0) for state in Counts._fields))
 
+    def has_any(self) -> bool:
+        """Tell whether anything was made, or set aside; False for a ledger without tables."""
+        try:
+            counts = self.counts()
+        except sqlite3.OperationalError:
+            return False
+        return bool(counts.done or counts.aside)
+
     def records(self) -> Iterator[tuple[int, int, str]]:
         """Yield (number, unit, record) of every image that is done, in order."""
         query = "SELECT number, unit, record FROM image WHERE state = 'done' ORDER BY number"
@@ -233,14 +255,25 @@ class Ledger:
 
 @contextmanager
 def room() -> Iterator[None]:
-    """Tell what has no room left by one error, whether a file or the ledger met it."""
+    """Tell what cannot be written by one error, whether a file or the ledger met it.
+
+    Raises
+    ------
+    DiskFullError
+        No room is left.
+    HaltedError
+        Something else is wrong with a drive, a store or the ledger, and not with an image.
+    """
     try:
         yield
     except OSError as error:
         if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
             raise DiskFullError(f"no room is left: {error.strerror}") from error
-        raise
-    except sqlite3.OperationalError as error:
-        if getattr(error, "sqlite_errorcode", None) in _FULL:
+        raise HaltedError(str(error) or type(error).__name__) from error
+    except sqlite3.DatabaseError as error:
+        code = getattr(error, "sqlite_errorcode", 0)
+        if code in _FULL:
             raise DiskFullError("no room is left for the ledger") from error
+        if code & 0xFF in _UNUSABLE:
+            raise HaltedError(f"its ledger: {error}") from error
         raise

@@ -23,8 +23,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from phantom.datasets.design import Design
-from phantom.datasets.ledger import Counts, DiskFullError, Ledger
-from phantom.errors import PhantomError
+from phantom.datasets.ledger import Counts, DiskFullError, HaltedError, Ledger
+from phantom.errors import InvalidInputError, PhantomError, Problem
 from phantom.tracing import default_workers
 
 LOOK_S: Final = 0.2
@@ -100,6 +100,10 @@ class Supervisor:
         ------
         DiskFullError
             No room is left; what is finished is kept.
+        HaltedError
+            The set's place cannot be written any more; what is finished is kept.
+        InvalidInputError
+            Workers do not reach the set's place (``/output``).
         WorkersLostError
             Workers cannot start.
         """
@@ -185,8 +189,10 @@ class Supervisor:
                 counts = counts._replace(open=counts.open - 1, aside=counts.aside + 1)
             if progress is not None:
                 progress(counts)
-        elif kind == "full":
-            raise DiskFullError(step["error"])
+        elif kind == "halted":
+            raise (DiskFullError if step["full"] else HaltedError)(step["error"])
+        elif kind == "refused":
+            raise InvalidInputError(Problem(**problem) for problem in step["problems"])
         elif kind == "ended":
             counts = self._buried(worker, counts)
             if progress is not None:

@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from phantom.datasets.checks import check, check_room
 from phantom.datasets.design import Design
 from phantom.datasets.finishing import Finished, finish
-from phantom.datasets.ledger import Counts, Ledger, room
+from phantom.datasets.ledger import Counts, DiskFullError, HaltedError, Ledger, room
 from phantom.datasets.making import text
 from phantom.datasets.names import DESIGN, MANIFEST, SET_ASIDE, STATE, apart
 from phantom.datasets.opening import of_tree, read_design
 from phantom.datasets.parts import Part, write_part
 from phantom.datasets.places import units
 from phantom.datasets.running import LEASE_S, Supervisor, lock
-from phantom.datasets.storage import LocalFolder, Storage, storage
+from phantom.datasets.storage import LocalFolder, Storage, storage, unusable
 from phantom.document import decode_json
 from phantom.errors import CancelledError, InvalidInputError, Problem
 from phantom.requests.limits import Limits
@@ -71,30 +72,38 @@ def make(
         The design, the place, or what is there already does not do.
     DiskFullError
         No room is left; what is finished is kept, and the same call goes on.
+    HaltedError
+        The place or the ledger cannot be written any more; what is finished is kept.
     CancelledError
         ``cancelled`` turned true; what is finished is kept.
     """
     run = run if run is not None else Run()
     wanted = read_design(design)
     where = storage(output, run.part.name)
-    if is_finished(wanted, where):
-        return _as_it_is(wanted, where)
+    with _usable("/output", where.address):
+        if is_finished(wanted, where):
+            return _as_it_is(wanted, where)
     planned = check(wanted, limits)
     path = ledger_path(where, run)
-    if not path.exists():
+    new = not path.exists()
+    if new:
         check_room(wanted, planned, where)
     _with_kernels()
-    with room():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        held = _locked(path)
-    try:
-        ledger = Ledger(path)
+    with ExitStack() as stack:
+        with _usable("/ledger" if run.ledger else "/output", str(path)):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            stack.callback(os.close, _locked(path))
+            ledger = stack.enter_context(closing(_opened(path)))
         try:
+            with _usable("/output", where.address):
+                where.put(f"{STATE}/{DESIGN}", text(wanted.tree()).encode())
             return _made(wanted, where, ledger, run, progress, cancelled)
-        finally:
-            ledger.close()
-    finally:
-        os.close(held)
+        except InvalidInputError:
+            if new and not ledger.has_any():
+                ledger.close()
+                _forget_ledger(path)
+                _forget_start(where)
+            raise
 
 
 def _made(
@@ -106,8 +115,6 @@ def _made(
     cancelled: Callable[[], bool] | None,
 ) -> Finished | Counts:
     mine = [unit for unit in units(design) if unit.number % run.part.of == run.part.number]
-    with room():
-        where.put(f"{STATE}/{DESIGN}", text(design.tree()).encode())
     ledger.open_for(design.digest(), run.part.name, mine)
     ledger.free_all()
     where.forget_unfinished()
@@ -131,9 +138,42 @@ def _made(
         found = finish(design, where)
     if run.ledger is not None:
         ledger.close()
-        for ending in ("", "-wal", "-shm", ".lock"):
-            Path(f"{run.ledger}{ending}").unlink(missing_ok=True)
+        _forget_ledger(run.ledger)
     return found
+
+
+def _opened(path: Path) -> Ledger:
+    """Open a ledger that is locked; leave no lock beside what is none."""
+    try:
+        return Ledger(path)
+    except HaltedError:
+        Path(f"{path}.lock").unlink(missing_ok=True)
+        raise
+
+
+def _forget_start(where: Storage) -> None:
+    """Leave nothing of a run that was refused before it had made anything, unless others run."""
+    with suppress(OSError):
+        where.forget_unfinished()
+        if where.names(STATE) in ([], [f"{STATE}/{DESIGN}"]):
+            where.forget(STATE)
+
+
+def _forget_ledger(path: Path) -> None:
+    for ending in ("", "-wal", "-shm", ".lock"):
+        Path(f"{path}{ending}").unlink(missing_ok=True)
+
+
+@contextmanager
+def _usable(path: str, place: str) -> Iterator[None]:
+    """Refuse a place that cannot be used as bad input, while nothing is made yet."""
+    try:
+        with room():
+            yield
+    except DiskFullError:
+        raise
+    except HaltedError as error:
+        raise unusable(path, place, error) from None
 
 
 def merge(output: str | Path, design: Design | None = None) -> Finished:
@@ -145,9 +185,10 @@ def merge(output: str | Path, design: Design | None = None) -> Finished:
         A part is missing, or the place has no parts (``/output``).
     """
     where = storage(output)
-    wanted = design if design is not None else kept_design(where)
-    if is_finished(wanted, where):
-        return _as_it_is(wanted, where)
+    with _usable("/output", where.address):
+        wanted = design if design is not None else kept_design(where)
+        if is_finished(wanted, where):
+            return _as_it_is(wanted, where)
     with room():
         return finish(wanted, where)
 

@@ -11,13 +11,13 @@ import os
 import secrets
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import IO, Any, Protocol
 
-from phantom.datasets.names import STATE
+from phantom.datasets.names import DESIGN, STATE
 from phantom.encode.files import sync_folder
-from phantom.errors import InvalidInputError, Problem
+from phantom.errors import InvalidInputError, PhantomError, Problem
 
 
 class Storage(Protocol):
@@ -137,48 +137,67 @@ class LocalFolder:
 
 
 class Remote:
-    """An address of fsspec, such as ``s3://bucket/set``."""
+    """An address of fsspec, such as ``s3://bucket/set``; what goes wrong there is an OSError."""
 
     def __init__(self, address: str) -> None:
         import fsspec
 
         self.address = address
         self._files, self._root = fsspec.core.url_to_fs(address)
+        self._folders = set[str]()
 
     def _at(self, name: str) -> str:
         return f"{self._root.rstrip('/')}/{name}"
 
+    def _folder_of(self, name: str) -> None:
+        folder = self._at(name).rpartition("/")[0]
+        if folder not in self._folders:
+            self._files.makedirs(folder, exist_ok=True)
+            self._folders.add(folder)
+
     def put(self, name: str, data: bytes) -> None:
         """Write a file; stores of objects put it whole."""
-        self._files.makedirs(self._at(name).rpartition("/")[0], exist_ok=True)
-        self._files.pipe_file(self._at(name), data)
+        with _of_the_store():
+            self._folder_of(name)
+            self._files.pipe_file(self._at(name), data)
 
     @contextmanager
     def writing(self, name: str) -> Iterator[Any]:
         """Give a stream; what is written goes to the address when the block ends well."""
-        self._files.makedirs(self._at(name).rpartition("/")[0], exist_ok=True)
-        with self._files.transaction, self._files.open(self._at(name), "wb") as stream:
-            yield stream
+        with ExitStack() as stack:
+            with _of_the_store():
+                self._folder_of(name)
+                stack.enter_context(self._files.transaction)
+                stream = stack.enter_context(self._files.open(self._at(name), "wb"))
+            yield _Sent(stream)
+            with _of_the_store():
+                stack.close()
 
     @contextmanager
     def reading(self, name: str) -> Iterator[Any]:
         """Give a stream of a file."""
-        with self._files.open(self._at(name), "rb") as stream:
+        with _of_the_store():
+            opened = self._files.open(self._at(name), "rb")
+        with opened as stream:
             yield stream
 
     def size(self, name: str) -> int | None:
         """Return how long a file is; None where there is none."""
-        try:
-            return int(self._files.size(self._at(name)))
-        except FileNotFoundError:
-            return None
+        with _of_the_store():
+            self._files.invalidate_cache()  # others write there too
+            try:
+                return int(self._files.size(self._at(name)))
+            except FileNotFoundError:
+                return None
 
     def names(self, folder: str) -> list[str]:
         """Return the names of the files right in a folder, in order."""
-        try:
-            found = self._files.ls(self._at(folder).rstrip("/"), detail=False)
-        except FileNotFoundError:
-            return []
+        with _of_the_store():
+            self._files.invalidate_cache()
+            try:
+                found = self._files.ls(self._at(folder).rstrip("/"), detail=False)
+            except FileNotFoundError:
+                return []
         tails = (str(name).rstrip("/").rpartition("/")[2] for name in found)
         return sorted(f"{folder}/{tail}" if folder else tail for tail in tails)
 
@@ -188,11 +207,35 @@ class Remote:
 
     def forget(self, name: str) -> None:
         """Remove a file, or a folder and all in it; nothing where there is none."""
-        if self._files.exists(self._at(name)):
-            self._files.rm(self._at(name), recursive=True)
+        with _of_the_store():
+            if self._files.exists(self._at(name)):
+                self._files.rm(self._at(name), recursive=True)
+        self._folders.clear()
 
     def forget_unfinished(self) -> None:
         """Do nothing: a put that was cut short has left no file."""
+
+
+class _Sent:
+    """A stream to a store."""
+
+    def __init__(self, stream: Any) -> None:
+        self._stream = stream
+
+    def write(self, data: Any) -> int:
+        with _of_the_store():
+            return int(self._stream.write(data))
+
+
+@contextmanager
+def _of_the_store() -> Iterator[None]:
+    """Tell errors of a store's own kind as the system tells those of a drive."""
+    try:
+        yield
+    except (OSError, PhantomError):
+        raise
+    except Exception as error:
+        raise OSError(f"{type(error).__name__}: {error}") from error
 
 
 def storage(address: str | Path, part: str = "whole") -> Storage:
@@ -201,8 +244,8 @@ def storage(address: str | Path, part: str = "whole") -> Storage:
     Raises
     ------
     InvalidInputError
-        The extra ``remote`` is missing, the address is of no kind that is known, or a file stands
-        where the folder would (``/output``).
+        The extra ``remote`` is missing, the address is of no kind that is known or leads nowhere,
+        or a file stands where the folder would (``/output``).
     """
     if isinstance(address, Path) or "://" not in address:
         folder = LocalFolder(address, part)
@@ -216,7 +259,42 @@ def storage(address: str | Path, part: str = "whole") -> Storage:
         message = f"found {address[:80]!r}, which needs a package: {error}"
         raise InvalidInputError([Problem("/output", "missing_extra", message)]) from None
     except ValueError as error:
-        raise InvalidInputError([Problem("/output", "unknown_address", str(error))]) from None
+        message = f"found {address[:80]!r}: {error}; expected an address that fsspec knows"
+        raise InvalidInputError([Problem("/output", "unknown_address", message)]) from None
+    except Exception as error:
+        raise unusable("/output", address, error) from None
+
+
+def unusable(path: str, place: str, error: Exception) -> InvalidInputError:
+    """Return the refusal of a place that cannot be used."""
+    said = (str(error).strip().splitlines() or [type(error).__name__])[0]
+    message = f"found {place[:80]!r}, which cannot be used: {said[:200]}; expected another place"
+    return InvalidInputError([Problem(path, "unusable", message)])
+
+
+def check_shared(where: Storage) -> None:
+    """Refuse a place of which a worker does not see what whoever started the run wrote there.
+
+    Raises
+    ------
+    InvalidInputError
+        Such as the memory of a process, or a folder of another machine (``/output``).
+    """
+    if where.size(f"{STATE}/{DESIGN}") is None:
+        message = (
+            f"found {where.address!r}, where workers do not see what was written for them;"
+            " expected a place that all of them reach"
+        )
+        raise InvalidInputError([Problem("/output", "not_shared", message)])
+
+
+def sized(count: float) -> str:
+    """Return a number of bytes as people say it."""
+    for unit in ("bytes", "kB", "MB", "GB"):
+        if count < 1000:
+            return f"{count:.3g} {unit}"
+        count /= 1000
+    return f"{count:.3g} TB"
 
 
 class Hashed:

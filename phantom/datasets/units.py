@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from typing import Any, Final, NamedTuple
 
-from phantom.datasets.ledger import DiskFullError, room
+from phantom.datasets.ledger import HaltedError, room
 from phantom.datasets.making import Made, Maker, text
 from phantom.datasets.names import file_name, is_open, shard_name
 from phantom.datasets.places import Unit
@@ -44,8 +44,8 @@ def make_image(maker: Maker, where: Storage, number: int) -> Record:
 
     Raises
     ------
-    DiskFullError
-        No room is left.
+    HaltedError
+        It cannot be written.
     """
     made = maker.make(number)
     files = []
@@ -117,7 +117,7 @@ def _tried(
         begin(number)
         try:
             return maker.make(number)
-        except (DiskFullError, CancelledError):
+        except (HaltedError, CancelledError):
             raise
         except Exception as error:
             if failed(number, error):

@@ -1,8 +1,8 @@
 """A worker: a process that claims units, makes them, and ends when its supervisor does.
 
 ``python -m phantom.datasets.worker`` reads one line of JSON, the job, and tells one line of JSON a
-step: ``ready``, ``begin`` and ``done`` of an image, ``failed``, and ``full``. Its input
-stays open for as long as the supervisor lives; where it ends, the worker does, at once.
+step: ``ready``, ``begin`` and ``done`` of an image, ``failed``, ``halted`` and ``refused``. Its
+input stays open for as long as the supervisor lives; where it ends, the worker does, at once.
 """
 
 from __future__ import annotations
@@ -12,15 +12,16 @@ import os
 import sys
 import threading
 import time
+from dataclasses import asdict
 from typing import IO, Any
 
-from phantom.datasets.ledger import DiskFullError, Ledger
+from phantom.datasets.ledger import DiskFullError, HaltedError, Ledger, room
 from phantom.datasets.making import Maker
 from phantom.datasets.opening import of_tree
 from phantom.datasets.places import units
-from phantom.datasets.storage import storage
+from phantom.datasets.storage import check_shared, storage
 from phantom.datasets.units import make_image, make_shard, worded
-from phantom.errors import CancelledError
+from phantom.errors import CancelledError, InvalidInputError
 
 
 def main() -> None:
@@ -55,6 +56,8 @@ class Work:
         """Make units until none is left."""
         self._tell("ready")
         try:
+            with room():
+                check_shared(self._where)
             while (
                 claim := self._ledger.claim(self._owner, time.time(), self._lease_s)
             ) is not None:
@@ -63,14 +66,16 @@ class Work:
                 else:
                     for number in claim.images:
                         self._image(number)
-        except DiskFullError as error:
-            self._tell("full", error=str(error))
+        except HaltedError as error:
+            self._tell("halted", error=str(error), full=isinstance(error, DiskFullError))
+        except InvalidInputError as error:
+            self._tell("refused", problems=[asdict(problem) for problem in error.problems])
 
     def _image(self, number: int) -> None:
         self._begin(number)
         try:
             record = make_image(self._maker, self._where, number)
-        except (DiskFullError, CancelledError):
+        except (HaltedError, CancelledError):
             raise
         except Exception as error:
             self._failed(number, error)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import pickle
+
 import pytest
 
 from phantom.datasets import forecast, make, quick
 from phantom.datasets.checks import check, check_room, expected_bytes
 from phantom.datasets.storage import LocalFolder
-from phantom.errors import InvalidInputError, UnknownPhantomError
+from phantom.errors import InvalidInputError, Problem, UnknownPhantomError
 
 UNIFORM = {"type": "uniform", "low": 1.0, "high": 2.0}
 
@@ -90,6 +92,13 @@ def test_impossible_designs_are_refused(design, given, expected):
     assert expected in [p.path for p in refusal.value.problems], refusal.value.problems
 
 
+def test_a_refusal_travels_to_another_process_with_its_problems():
+    told = InvalidInputError([Problem("/people", "too_few", "found 0; expected more")])
+    again = pickle.loads(pickle.dumps(told))
+    assert again.problems == told.problems
+    assert str(again) == "/people: found 0; expected more"
+
+
 def test_an_unknown_phantom_is_refused(design):
     with pytest.raises(InvalidInputError, match="expected one of the library's phantoms"):
         check(design(phantom={"name": "unicorn"}))
@@ -132,7 +141,7 @@ def test_a_disk_too_small_is_refused_before_the_first_image(design, tmp_path, mo
     for free, refused in ((needed - 1, True), (needed + 1, False)):
         monkeypatch.setattr(LocalFolder, "free_bytes", lambda _, free=free: free)
         if refused:
-            with pytest.raises(InvalidInputError, match="GB free"):
+            with pytest.raises(InvalidInputError, match="MB free"):
                 make(wanted, tmp_path / "set")
             assert not (tmp_path / "set").exists()
         else:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import sqlite3
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from phantom.datasets.ledger import TRIES, Counts, DiskFullError, Ledger, room
+from phantom.datasets.ledger import TRIES, Counts, DiskFullError, HaltedError, Ledger, room
 from phantom.datasets.places import Unit
 from phantom.errors import InvalidInputError
 
@@ -94,6 +96,19 @@ def test_a_full_database_is_a_full_disk(ledger):
     with pytest.raises(DiskFullError):
         ledger.done("a", [(claim.images[0], "x", "".join(map(str, range(100_000))))])
     assert ledger.counts().taken == 2, "the change that had no room never was"
+
+
+@pytest.mark.parametrize("number", [errno.EACCES, errno.EROFS, errno.EIO, errno.ESTALE])
+def test_a_fault_of_the_drive_is_no_images_fault(number):
+    with pytest.raises(HaltedError) as halt, room():
+        raise OSError(number, os.strerror(number))
+    assert not isinstance(halt.value, DiskFullError)
+
+
+def test_what_is_no_database_is_no_ledger(tmp_path):
+    (tmp_path / "letter").write_text("dear reader, " * 100)
+    with pytest.raises(HaltedError, match="not a database"):
+        Ledger(tmp_path / "letter")
 
 
 def test_another_fault_of_the_database_is_itself():

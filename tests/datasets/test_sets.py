@@ -8,6 +8,7 @@ import json
 import pickle
 import signal
 import tarfile
+import zipfile
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from PIL import Image
 
 from phantom import datasets
 from phantom.datasets import Part, Run, make, merge
+from phantom.datasets.ledger import HaltedError
 from phantom.datasets.names import MANIFEST, STATE
 from phantom.datasets.sampling import healthy
 from phantom.errors import CancelledError, InvalidInputError
@@ -247,13 +249,13 @@ def test_a_blind_set_tells_readers_nothing(design, tmp_path):
     )
 
 
-def test_a_set_goes_to_any_address_of_fsspec(plain, undisturbed, tmp_path):
+def test_a_set_goes_to_any_address_of_fsspec_that_workers_reach(plain, undisturbed, tmp_path):
+    """Another than a drive is read in tests/compare/test_object_store.py."""
     import fsspec
 
-    address = "memory://bucket/set"
+    ours = f"file://{tmp_path}/set"
     with pytest.raises(InvalidInputError, match="expected a file on a local disk"):
-        make(plain, address)
-    ours = f"file://{tmp_path}/set"  # memory is of one process, and workers are others
+        make(plain, ours)
     make(plain, ours, Run(workers=2, ledger=tmp_path / "ledger"))
     files = fsspec.filesystem("file")
     found = files.cat_file(f"{tmp_path}/set/{MANIFEST}")
@@ -261,6 +263,57 @@ def test_a_set_goes_to_any_address_of_fsspec(plain, undisturbed, tmp_path):
     for line in found.decode().splitlines():
         sha, _, name = line.partition("  ")
         assert hashlib.sha256(files.cat_file(f"{tmp_path}/set/{name}")).hexdigest() == sha
+
+
+def test_a_place_that_workers_do_not_see_is_refused(plain, tmp_path):
+    """The memory of a process is its own: what workers wrote there would be gone with them."""
+    with pytest.raises(InvalidInputError) as refusal:
+        make(plain, "memory://bucket/set", Run(workers=1, ledger=tmp_path / "ledger"))
+    assert [(p.path, p.kind) for p in refusal.value.problems] == [("/output", "not_shared")]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_worker_of_a_cluster_refuses_a_place_that_it_does_not_see(plain, tmp_path):
+    from phantom.datasets.cluster import make_chunk
+
+    with pytest.raises(InvalidInputError, match="do not see"):
+        make_chunk(plain.tree(), str(tmp_path / "of-another-machine"), None, [0])
+
+
+def test_places_that_cannot_be_used_are_refused_and_nothing_is_left(plain, tmp_path):
+    letter = tmp_path / "letter.txt"
+    letter.write_text("dear")
+    closed = tmp_path / "closed.zip"
+    with zipfile.ZipFile(closed, "w") as archive:
+        archive.writestr("a", "b")
+    for output, ledger, path in (
+        (letter / "set", None, "/output"),
+        (f"zip://set::file://{closed}", tmp_path / "ledger", "/output"),
+        (f"zip://set::file://{tmp_path}/none.zip", tmp_path / "ledger", "/output"),
+        (tmp_path / "set", letter, "/ledger"),
+        (tmp_path / "set", letter / "ledger", "/ledger"),
+    ):
+        with pytest.raises(InvalidInputError) as refusal:
+            make(plain, output, Run(workers=1, ledger=ledger))
+        assert [(p.path, p.kind) for p in refusal.value.problems] == [(path, "unusable")]
+        assert sorted(p.name for p in tmp_path.iterdir()) == ["closed.zip", "letter.txt"]
+    assert letter.read_text() == "dear"
+
+
+def test_a_place_that_is_lost_halts_the_run_and_blames_no_image(
+    plain, undisturbed, tmp_path, content
+):
+    folder = tmp_path / "set"
+    with pytest.raises(HaltedError, match="exists"):
+        make(
+            plain,
+            folder,
+            Run(workers=2),
+            progress=lambda _: (folder / "train").touch(),  # where its folder should be
+        )
+    (folder / "train").unlink()
+    assert make(plain, folder, Run(workers=2)).aside == []
+    assert content(folder) == content(undisturbed)
 
 
 def test_the_contact_sheet_shows_some_of_all_splits(undisturbed):
