@@ -23,26 +23,34 @@ class Girdle(NamedTuple):
     ----------
     clavicle
         Points of its axis, and half its height and depth there.
-    root, turn_deg
-        Where the spine of the scapula begins at the blade's medial border, and how far the blade is
-        turned in its own plane, its socket up.
+    root, facing_deg, turn_deg
+        Where the spine of the scapula begins at the blade's medial border, how far from there the
+        blade runs forward of sideways, and how far it is turned in its own plane, its socket up.
+    acromion
+        Where the root puts the end of the scapula to which the collar bone comes.
     arm
-        Points of the humerus, from its head to beyond where it is cut.
+        Points of the humerus from the middle of its head to beyond where it is cut, from the
+        socket on.
+    shoulder
+        Middle and radius of the muscle about the joint, from the socket on.
     trunk
         z, half-width, front and back of the muscles' surface from the nipples up.
     """
 
     clavicle: tuple[tuple[Point, float, float], ...]
     root: Point
+    facing_deg: float
     turn_deg: float
+    acromion: Point
     arm: tuple[Point, ...]
+    shoulder: tuple[Point, float]
     trunk: Trunk
 
 
 GIRDLES: Final[Mapping[Arms, Girdle]] = {
     "at_sides": Girdle(
         clavicle=(
-            ((17.0, -52.0, 88.0), 10.5, 9.5),
+            ((17.6, -53.2, 89.3), 10.5, 9.5),
             ((27.0, -54.5, 89.5), 9.0, 8.5),
             ((45.0, -57.0, 92.0), 6.6, 6.4),
             ((70.0, -53.0, 94.0), 5.8, 6.0),
@@ -52,15 +60,18 @@ GIRDLES: Final[Mapping[Arms, Girdle]] = {
             ((153.0, -7.0, 99.5), 4.6, 8.5),
         ),
         root=(119.0, 78.0, 42.0),
+        facing_deg=51.0,
         turn_deg=0.0,
+        acromion=(177.2, 9.3, 98.0),
         arm=(
-            (185.0, 2.5, 72.0),
-            (196.0, 2.0, 55.0),
-            (210.0, -1.0, 32.0),
-            (226.0, -5.0, 4.0),
-            (244.0, -9.0, -28.0),
-            (296.0, -19.0, -118.0),
+            (17.5, -15.7, 8.0),
+            (28.5, -16.2, -9.0),
+            (42.5, -19.2, -32.0),
+            (58.5, -23.2, -60.0),
+            (76.5, -27.2, -92.0),
+            (128.5, -37.2, -182.0),
         ),
+        shoulder=((17.5, -12.0, 8.0), 43.0),
         trunk=(
             (0.0, 161.0, -106.0, 115.0),
             (28.0, 167.0, -98.0, 115.0),
@@ -78,35 +89,38 @@ GIRDLES: Final[Mapping[Arms, Girdle]] = {
     ),
     "raised": Girdle(
         clavicle=(
-            ((17.0, -52.0, 88.0), 10.5, 9.5),
+            ((17.6, -53.2, 89.3), 10.5, 9.5),
             ((27.0, -53.5, 90.5), 9.0, 8.5),
             ((45.0, -52.0, 96.0), 6.6, 6.4),
             ((67.0, -42.0, 104.0), 5.8, 6.0),
-            ((90.0, -26.0, 113.0), 5.6, 6.2),
-            ((110.0, -6.0, 122.0), 5.4, 7.5),
-            ((124.0, 13.0, 129.0), 5.2, 9.0),
-            ((132.0, 25.0, 133.0), 4.6, 8.5),
+            ((89.0, -23.0, 113.0), 5.6, 6.2),
+            ((107.0, -4.0, 122.0), 5.4, 7.5),
+            ((120.0, 11.0, 129.0), 5.2, 9.0),
+            ((128.0, 21.0, 133.0), 4.6, 8.5),
         ),
-        root=(121.0, 72.0, 36.0),
+        root=(123.0, 72.0, 36.0),
+        facing_deg=63.0,
         turn_deg=38.0,
+        acromion=(141.3, 40.4, 135.5),
         arm=(
-            (162.0, 21.0, 116.0),
-            (167.0, 11.0, 135.0),
-            (170.0, -6.0, 159.0),
-            (172.0, -26.0, 186.0),
-            (174.0, -50.0, 218.0),
-            (178.0, -104.0, 290.0),
+            (9.6, -16.0, 15.3),
+            (13.6, -36.0, 33.3),
+            (17.6, -61.0, 54.3),
+            (20.6, -87.0, 75.3),
+            (23.6, -119.0, 101.3),
+            (30.0, -300.0, 240.0),
         ),
+        shoulder=((4.6, -3.0, 10.3), 45.0),
         trunk=(
-            (0.0, 159.0, -106.0, 115.0),
-            (35.0, 161.0, -97.0, 114.0),
-            (62.0, 162.0, -87.0, 110.0),
-            (84.0, 160.0, -77.0, 104.0),
-            (98.0, 157.0, -71.0, 99.0),
-            (110.0, 151.0, -65.0, 95.0),
-            (122.0, 141.0, -57.0, 90.0),
-            (136.0, 121.0, -51.0, 82.0),
-            (152.0, 86.0, -47.0, 71.0),
+            (0.0, 164.0, -106.0, 115.0),
+            (35.0, 166.0, -97.0, 114.0),
+            (62.0, 165.0, -87.0, 111.0),
+            (84.0, 162.0, -77.0, 106.0),
+            (98.0, 153.0, -71.0, 101.0),
+            (110.0, 138.0, -65.0, 96.0),
+            (122.0, 115.0, -57.0, 90.0),
+            (136.0, 92.0, -51.0, 82.0),
+            (152.0, 71.0, -47.0, 71.0),
             (170.0, 62.0, -46.0, 61.0),
             (188.0, 56.0, -48.0, 56.0),
             (235.0, 57.0, -52.0, 54.0),

@@ -7,14 +7,24 @@ from typing import Final
 import numpy as np
 
 from phantom.document import GeneralizedCylinder, Rotation, Solid, Sphere, Transformed
+from phantoms.chest import spine
 from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
-from phantoms.chest.girdle import arm_axis, kept, right_shoulder
+from phantoms.chest.girdle import (
+    arm_axis,
+    blade_muscles,
+    clavicle_muscles,
+    from_socket,
+    kept,
+    right_shoulder,
+)
 from phantoms.chest.ribs import SIDES, on_side
 from phantoms.chest.shapes import Row, column, fitted, grown, rounded, sampled, tube
 from phantoms.parts import ellipsoid, union
 
 SKIN_MM: Final = 1.6
+OVER_SPINE_MM: Final = 2.0
+"""Of muscle and sinew over the spinous processes, where a back is shallow."""
 LAYERS: Final = ("muscle", "fat", "skin")
 """Inside out; each is drawn with all that it encloses."""
 # z, half-width, front and back of the trunk under its fat, drawn, below what the arms move.
@@ -39,7 +49,12 @@ def trunk_rows(frame: Frame) -> list[Row]:
     rows: list[Row] = [
         (z, -half, half, front, back) for z, half, front, back in (*_TRUNK, *frame.girdle.trunk)
     ]
-    return sampled(fitted(frame, rows), 14)
+    tips = np.array(spine.spinous_tips(frame))
+    found: list[Row] = []
+    for z, low, high, front, back in sampled(fitted(frame, rows), 14):
+        near = tips[np.abs(tips[:, 1] - z) < 45.0, 0]
+        found.append((z, low, high, front, max(back, near.max(initial=-1e3) + OVER_SPINE_MM)))
+    return found
 
 
 def _trunk(frame: Frame, name: str, material: str, layer: int) -> Solid:
@@ -62,12 +77,13 @@ def _arm(frame: Frame, name: str, material: str, layer: int) -> GeneralizedCylin
 def _shoulder(frame: Frame, name: str, material: str, layer: int) -> Solid:
     fat = 0.5 * frame.sizes.fat_mm
     more = (0.0, fat, fat + SKIN_MM)[layer]
+    centre, radius = frame.girdle.shoulder
     return Sphere(
         type="sphere",
         name=name,
         material=material,
-        center=arm_axis(frame)[0],
-        radius=_ARM_RADII[0] * frame.bone + more,
+        center=from_socket(frame, centre),
+        radius=radius * frame.bone + more,
     )
 
 
@@ -100,7 +116,12 @@ def definitions(cage: Cage, sex: str) -> dict[str, Solid]:
     found: dict[str, Solid] = {}
     for layer, material in enumerate(LAYERS):
         arm = union(_arm(f, "arm", material, layer), _shoulder(f, "shoulder", material, layer))
-        parts: list[Solid] = [arm]
+        over = (0.0, 0.5 * f.sizes.fat_mm, 0.5 * f.sizes.fat_mm + SKIN_MM)[layer]
+        parts: list[Solid] = [
+            arm,
+            blade_muscles(f, "blade", material, over),
+            clavicle_muscles(f, "clavicle", material, over),
+        ]
         if sex == "female" and layer > 0:
             parts.append(breast(cage, layer))
         found[f"{material} of a side"] = union(*parts)

@@ -18,12 +18,13 @@ from phantom.document import (
     Point,
     Solid,
     SplineContour,
+    Transformed,
     UpFrame,
 )
 from phantoms.chest.arms import CUT_X_MM, TOP_Z_MM
-from phantoms.chest.cage import Cage
+from phantoms.chest.cage import Cage, FloatArray
 from phantoms.chest.frame import Frame
-from phantoms.chest.shapes import tube
+from phantoms.chest.shapes import cone, tube
 from phantoms.chest.sides import Rows
 from phantoms.parts import Station, ellipsoid, layered, swept, union, within
 
@@ -33,27 +34,37 @@ _BLADE: Final = (
     (22.0, -110.0), (29.0, -104.0), (40.0, -74.0), (54.0, -38.0), (66.0, -8.0), (72.0, 8.0),
     (73.0, 26.0), (66.0, 36.0), (50.0, 37.0), (32.0, 44.0), (16.0, 51.0),
 )  # fmt: skip
-_SIDEWAYS: Final = np.array([0.63, -0.776, 0.0])
-_BEHIND: Final = np.array([0.776, 0.63, 0.0])
-_UP: Final = np.array([0.0, 0.0, 1.0])
+# Sideways, up and behind on the blade.
+_ACROMION: Final = (90.0, 56.0, 2.0)
+_SOCKET: Final = (77.0, 22.0, 0.0)
+_STERNUM_Y: Final = -40.0
 _HEAD_RADIUS_MM: Final = 23.0
 _FAR_MM: Final = 2000.0
 
 
-def _stations(frame: Frame, table: tuple[tuple[Point, float, float], ...]) -> list[Station]:
-    return [
-        Station(
-            frame.at(*point),
-            (-high * frame.bone, high * frame.bone),
-            (-deep * frame.bone, deep * frame.bone),
-        )
-        for point, high, deep in table
-    ]
+def joint(frame: Frame) -> Point:
+    """Return the inner end of the left clavicle, before and beside the breastbone."""
+    x, y, z = frame.girdle.clavicle[0][0]
+    _, middle, height = frame.at(0.0, _STERNUM_Y, z)
+    return (frame.bone * x, middle + frame.bone * (y - _STERNUM_Y), height)
+
+
+def _clavicle_stations(frame: Frame) -> list[Station]:
+    """Return sections of the left clavicle; its outer end follows the scapula."""
+    table = frame.girdle.clavicle
+    inner = np.array(joint(frame)) - frame.at(*table[0][0])
+    outer = np.array(_on_blade(frame, *_ACROMION)) - frame.at(*frame.girdle.acromion)
+    stations = []
+    for share, (point, high, deep) in zip(np.linspace(0, 1, len(table)) ** 1.5, table, strict=True):
+        x, y, z = np.array(frame.at(*point)) + (1.0 - share) * inner + share * outer
+        reaches = ((-h * frame.bone, h * frame.bone) for h in (high, deep))
+        stations.append(Station((float(x), float(y), float(z)), *reaches))
+    return stations
 
 
 def clavicle(frame: Frame) -> Solid:
     """Return a left clavicle: cortex, thickest over its middle, and spongiosa."""
-    stations = _stations(frame, frame.girdle.clavicle)
+    stations = _clavicle_stations(frame)
     walls = [0.8, 1.0, 1.8, 2.3, 2.2, 1.6, 1.0, 0.8]
     return layered(
         swept("cortex", stations, "cortical_bone", up=(0.0, 0.0, 1.0)),
@@ -61,20 +72,40 @@ def clavicle(frame: Frame) -> Solid:
     )
 
 
+def clavicle_muscles(frame: Frame, name: str, material: str, more_mm: float) -> Solid:
+    """Return the muscles about the outer half of the clavicle, so much thicker."""
+    stations = _clavicle_stations(frame)
+    radii = (10.0 * frame.bone + more_mm, 13.0 * frame.bone + more_mm)
+    end = stations[-2].at
+    return union(
+        cone(name, stations[4].at, end, radii, material),
+        ellipsoid(f"end of the {name}", end, (radii[1] + 0.5,) * 3, material),
+    )
+
+
+def _blade_axes(frame: Frame) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the ways sideways and up along the blade, and behind it."""
+    facing, turn = (math.radians(a) for a in (frame.girdle.facing_deg, frame.girdle.turn_deg))
+    sideways = np.array([math.cos(facing), -math.sin(facing), 0.0])
+    up = np.array([0.0, 0.0, 1.0])
+    return (
+        math.cos(turn) * sideways + math.sin(turn) * up,
+        math.cos(turn) * up - math.sin(turn) * sideways,
+        np.array([math.sin(facing), math.cos(facing), 0.0]),
+    )
+
+
 def _on_blade(frame: Frame, sideways: float, up: float, behind: float = 0.0) -> Point:
     """Return the point of the body at a place of the blade, so far behind it."""
-    turn = math.radians(frame.girdle.turn_deg)
-    out = math.cos(turn) * _SIDEWAYS + math.sin(turn) * _UP
-    high = math.cos(turn) * _UP - math.sin(turn) * _SIDEWAYS
+    ways = _blade_axes(frame)
     root = np.array(frame.at(*frame.girdle.root))
-    at = root + frame.bone * (sideways * out + behind * _BEHIND + up * high)
+    at = root + frame.bone * (sideways * ways[0] + up * ways[1] + behind * ways[2])
     return (float(at[0]), float(at[1]), float(at[2]))
 
 
 def _upward(frame: Frame) -> Point:
     """Return the way up along the blade."""
-    turn = math.radians(frame.girdle.turn_deg)
-    way = math.cos(turn) * _UP - math.sin(turn) * _SIDEWAYS
+    way = _blade_axes(frame)[1]
     return (float(way[0]), float(way[1]), float(way[2]))
 
 
@@ -108,10 +139,11 @@ def scapula(frame: Frame) -> Solid:
         [2.2 * f.bone, 3.4 * f.bone, 4.2 * f.bone, 5.0 * f.bone],
         "arch_bone",
     )
+    thick = 4.0 * f.bone
     acromion = swept(
         "acromion",
         [
-            Station(_on_blade(f, s, u, b), (-4.0, 4.0), (-half, half))
+            Station(_on_blade(f, s, u, b), (-thick, thick), (-half * f.bone, half * f.bone))
             for s, u, b, half in (
                 (64.0, 41.0, 24.0, 6.0),
                 (76.0, 50.0, 20.0, 9.0),
@@ -137,14 +169,33 @@ def scapula(frame: Frame) -> Solid:
     return union(side, spine, acromion, coracoid, neck, blade)
 
 
+def from_socket(frame: Frame, offset: Point) -> Point:
+    """Return the point so far from the socket of the shoulder, in mm of the drawn man."""
+    at = np.array(_on_blade(frame, *_SOCKET)) + frame.bone * np.array(offset)
+    return (float(at[0]), float(at[1]), float(at[2]))
+
+
 def arm_axis(frame: Frame) -> list[Point]:
     """Return points of the humerus from its head to beyond where it is cut."""
-    return frame.path(frame.girdle.arm)
+    return [from_socket(frame, offset) for offset in frame.girdle.arm]
+
+
+def blade_muscles(frame: Frame, name: str, material: str, more_mm: float) -> Solid:
+    """Return the muscles on both sides of the blade, so much thicker."""
+    ways = np.array(_blade_axes(frame)).T
+    middle = _on_blade(frame, 35.0, -31.0, 3.0)
+    rows = [(*map(float, way), at) for way, at in zip(ways, middle, strict=True)]
+    half = [frame.bone * h + more_mm for h in (45.0, 85.0, 10.0)]
+    return Transformed(
+        type="transformed",
+        solid=ellipsoid(name, (0.0, 0.0, 0.0), (half[0], half[1], half[2]), material),
+        matrix=tuple(rows),
+    )
 
 
 def right_shoulder(cage: Cage) -> Rows:
     """Return the rows of what moves the left shoulder to the right."""
-    return cage.sides.shoulder(cage.frame.at(*cage.frame.girdle.clavicle[0][0]))
+    return cage.sides.shoulder(joint(cage.frame))
 
 
 def kept(frame: Frame, arms: Solid, of: str) -> Solid:

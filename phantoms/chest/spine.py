@@ -51,8 +51,8 @@ class Kind(NamedTuple):
 
 KINDS: Final = {
     "upper": Kind(14.2, 9.8, 17.0, (2.6, 5.0), (33.0, 35.0, 4.0), (52.0, -12.0), 6.0),
-    "middle": Kind(14.6, 13.2, 19.2, (2.6, 6.0), (29.0, 35.0, 5.0), (55.0, -26.0), 8.0),
-    "lower": Kind(17.6, 14.4, 23.5, (4.2, 8.0), (24.0, 32.0, 2.0), (52.0, -12.0), 10.0),
+    "middle": Kind(14.6, 13.2, 19.2, (2.6, 6.0), (29.0, 35.0, 5.0), (55.0, -26.0), 7.0),
+    "lower": Kind(17.6, 14.4, 23.5, (4.2, 8.0), (24.0, 32.0, 2.0), (52.0, -12.0), 9.0),
 }
 SHELL_MM: Final = 0.3
 """Of compact bone about a body and at its end plates."""
@@ -158,6 +158,25 @@ def centre(frame: Frame, name: str) -> tuple[float, float, float]:
     """Return the middle of a vertebral body."""
     z = LEVELS[name].z
     return frame.at(0.0, spine_y(z), z)
+
+
+def spinous_tips(frame: Frame) -> list[tuple[float, float]]:
+    """Return how far back (y) each spinous process reaches, and at which height."""
+    found = []
+    for name, level in LEVELS.items():
+        kind, size = KINDS[level.kind], level.size * frame.bone
+        lean = math.radians(tilt_deg(frame, level.z))
+        y, z = kind.spinous
+        _, middle_y, middle_z = centre(frame, name)
+        found.append(
+            (
+                middle_y
+                + size * (y * math.cos(lean) - z * math.sin(lean))
+                + 0.5 * size * kind.spinous_height,
+                middle_z + size * (y * math.sin(lean) + z * math.cos(lean)),
+            )
+        )
+    return found
 
 
 def placed(frame: Frame, name: str) -> Transformed:
