@@ -30,13 +30,13 @@ _STOMACH: Final = (
     ((68.5, 26.0, 129.0), 41.0, 41.0, 40.5),
     ((70.0, 22.5, 112.0), 44.0, 43.5, 44.0),
     ((69.0, 15.0, 90.0), 42.5, 41.0, 43.0),
-    ((65.5, 5.5, 66.0), 38.5, 36.5, 40.0),
-    ((60.5, -5.5, 40.0), 34.5, 32.0, 37.0),
-    ((55.0, -16.0, 15.0), 31.5, 28.5, 35.0),
-    ((46.5, -24.5, -8.0), 29.5, 20.0, 34.0),
-    ((32.5, -30.0, -25.0), 28.0, 14.5, 33.5),
-    ((14.0, -32.5, -31.0), 26.0, 13.5, 31.5),
-    ((-4.0, -31.0, -24.5), 23.0, 13.0, 27.0),
+    ((65.5, 5.5, 66.0), 38.0, 35.0, 39.5),
+    ((60.5, -5.5, 40.0), 33.0, 29.0, 35.0),
+    ((55.0, -16.0, 15.0), 29.5, 24.0, 32.0),
+    ((46.5, -24.5, -8.0), 28.0, 17.5, 31.0),
+    ((32.5, -30.0, -25.0), 26.5, 13.5, 29.5),
+    ((14.0, -32.5, -31.0), 25.0, 13.0, 28.0),
+    ((-4.0, -31.0, -24.5), 22.5, 13.0, 25.5),
     ((-17.5, -27.0, -9.5), 18.5, 12.0, 19.5),
     ((-25.5, -22.5, 3.5), 16.5, 13.5, 16.5),
     ((-31.0, -18.5, 14.5), 13.0, 12.0, 12.5),
@@ -50,15 +50,16 @@ _BEND_SHARE: Final = 0.82
 _BEND: Final = 8
 """Station at which the bend begins."""
 _WIDEST_MM: Final = 88.0
-_BULB: Final = (
+BULB: Final = (
     ((0.0, 0.0, 0.0), 3.0),
-    ((-0.9, 0.5, 1.8), 4.5),
-    ((-2.4, 1.6, 4.4), 10.0),
-    ((-5.0, 4.2, 8.6), 11.5),
-    ((-8.0, 7.6, 12.6), 9.6),
-    ((-11.0, 11.2, 15.8), 6.8),
-    ((-13.2, 14.0, 17.6), 3.2),
+    ((-0.9, 0.5, 1.8), 5.0),
+    ((-2.2, 1.5, 4.2), 12.5),
+    ((-4.6, 3.8, 7.8), 13.0),
+    ((-8.2, 7.8, 12.6), 9.5),
+    ((-11.6, 12.0, 16.6), 6.4),
+    ((-14.0, 15.0, 19.0), 4.0),
 )
+"""Places beyond the pylorus, and half the width there: a cap, widest at its base."""
 # x from right to left, then z of the lower and upper face, y of the front and of the back.
 _LIVER: Final = (
     (-122.0, 52.0, 72.0, -8.0, 12.0),
@@ -195,6 +196,20 @@ class Stomach:
         }[curvature]
         return at + reach * toward, toward, width
 
+    def on_wall(self, share: float, angle: float, inset_mm: float) -> FloatArray:
+        """Return a place so far inside the lumen's edge, at an angle from the greater curvature.
+
+        The angle, in radians, runs toward the back.
+        """
+        at, back, greater = self.frame(share)
+        deep, lesser, wide = (float(value) for value in self._reach(share))
+        across, behind = math.cos(angle), math.sin(angle)
+        side = wide if across > 0 else lesser
+        toward: FloatArray = (
+            at + (side - inset_mm) * across * greater + (deep - inset_mm) * behind * back
+        )
+        return toward
+
     def solids(self, level_mm: float, coating_mm: float) -> list[Solid]:
         """Return wall, coat, air and barium, each to replace the one before."""
         up = (0.0, 1.0, 0.0)
@@ -213,7 +228,7 @@ class Stomach:
         """Return the duodenal bulb beyond the pylorus, full of barium."""
         end = np.array(self.lumen[-1].at)
         rows = [
-            round_station(_point(end + scale * np.array(at)), scale * half) for at, half in _BULB
+            round_station(_point(end + scale * np.array(at)), scale * half) for at, half in BULB
         ]
         wall = 0.5 * wall_mm
         outer = [

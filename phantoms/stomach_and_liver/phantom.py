@@ -12,6 +12,8 @@ from phantom.library import Abnormality, Entry, Technique
 from phantoms.parts import layered, named, union
 from phantoms.people import cortical_density_g_cm3, muscle_scale, spongiosa_density_g_cm3
 from phantoms.stomach_and_liver.abnormalities import ABNORMALITIES, Surroundings, add
+from phantoms.stomach_and_liver.belly import pelvis, viscera
+from phantoms.stomach_and_liver.mucosa import duodenum, folds
 from phantoms.stomach_and_liver.organs import AIR, BARIUM, LIVER, WALL, Stomach, liver, reaches
 from phantoms.stomach_and_liver.parameters import Parameters, of_person
 from phantoms.stomach_and_liver.spine import CORTEX, SPONGIOSA, psoas, ribs, spine
@@ -35,13 +37,13 @@ SOURCES: Final = (
     "Int. J. Spine Surg., table 6, measurements at L5: heights and pedicles.",
     "Riggs et al., J. Bone Miner. Res. 19 (2004) 1945: bone density by age.",
     "Estimates: the stomach's axis, 250 to 300 mm, and lumen; shapes and places of all organs; the"
-    " rest of the spine, ribs, muscles, cavity and fat.",
+    " folds; the rest of the spine, ribs, hips, muscles, cavity and fat.",
 )
 _TITLE: Final = "Stomach and liver"
 _SUMMARY: Final = (
     "The upper belly of a person who stands and has drunk barium: the stomach as one generalized"
-    " cylinder along a J, air over barium in it; liver, lumbar spine, lower ribs, psoas, lung"
-    " bases, in muscle, fat and skin."
+    " cylinder along a J, air over barium between its folds; duodenum, liver, kidneys, spine, hips,"
+    " lower ribs, psoas, heart and lung bases, in muscle, fat and skin."
 )
 _BARIUM_SULPHATE_G_CM3: Final = 4.5
 _MOST_LUMEN: Final = 0.4
@@ -78,11 +80,18 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
     solid = layered(
         envelope(trunk),
         *lungs(trunk, scale, highest),
+        *viscera(trunk, scale),
         union(*psoas(scale, muscle_scale(person), trunk)),
         organ,
-        union(*spine(scale), *(ribs(scale, trunk) if chosen.ribs else [])),
-        named("stomach", layered(*stomach.solids(level, chosen.coating_mm))),
-        named("duodenum", stomach.bulb(scale, chosen.stomach_wall_mm)),
+        union(*spine(scale), *pelvis(trunk, scale), *(ribs(scale, trunk) if chosen.ribs else [])),
+        named(
+            "duodenum",
+            layered(duodenum(stomach, scale), stomach.bulb(scale, chosen.stomach_wall_mm)),
+        ),
+        named(
+            "stomach",
+            layered(*stomach.solids(level, chosen.coating_mm), *folds(stomach, chosen.coating_mm)),
+        ),
         *wrong,
     )
     return Document(
@@ -150,7 +159,13 @@ entry = Entry(
     parameters=Parameters,
     build=build,
     views=("ap",),
-    technique=Technique(kvp=78.0, source_detector_mm=1150.0, window=(5.0, 5.2), air_kerma_ugy=2.5),
+    technique=Technique(
+        kvp=78.0,
+        source_detector_mm=1150.0,
+        window=(5.3, 5.8),
+        air_kerma_ugy=2.5,
+        field_mm=345.0,
+    ),
     abnormalities=ABNORMALITIES,
     of_person=of_person,
 )

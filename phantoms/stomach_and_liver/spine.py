@@ -1,4 +1,4 @@
-"""The lumbar spine and the last thoracic vertebra, simplified; the lower ribs; the psoas.
+"""The lumbar spine and the last thoracic vertebrae, simplified; the lower ribs; the psoas.
 
 The fifth lumbar vertebra's heights and pedicles are published means (International Journal of Spine
 Surgery: heights 30.7 and 29.6 mm in front, pedicles 13.1 by 16.6 and 12.5 by 15.1 mm in men and
@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import Final, NamedTuple
 
-from phantom.document import Cylinder, Point, Solid
+from phantom.document import Cone, Cylinder, Point, Solid
 from phantoms.parts import (
     Station,
     ellipsoid,
@@ -24,8 +24,9 @@ from phantoms.parts import (
 from phantoms.stomach_and_liver.trunk import MUSCLE, Trunk
 
 CORTEX, SPONGIOSA = "cortical bone", "spongiosa"
-_SHELL_MM: Final = 0.9
-_RIB_SECTIONS: Final = 12
+_SHELL_MM: Final = 0.7
+_ARCH_SHELL_MM: Final = 0.6
+_RIB_SECTIONS: Final = 8
 
 
 class Vertebra(NamedTuple):
@@ -42,6 +43,9 @@ class Vertebra(NamedTuple):
 
 
 VERTEBRAE: Final[dict[str, Vertebra]] = {
+    "T9": Vertebra(43.0, 198.0, 33.0, 28.0, 21.5, (6.0, 13.0), 11.0, 27.0),
+    "T10": Vertebra(42.0, 169.0, 35.5, 29.0, 22.5, (6.5, 14.0), 11.5, 26.0),
+    "T11": Vertebra(41.0, 138.5, 38.0, 30.0, 24.0, (7.0, 15.0), 12.0, 23.0),
     "T12": Vertebra(39.0, 107.0, 41.0, 31.0, 25.5, (7.5, 15.0), 12.5, 24.0),
     "L1": Vertebra(35.0, 72.0, 42.5, 32.0, 26.5, (8.0, 15.0), 12.5, 35.0),
     "L2": Vertebra(31.0, 36.0, 44.0, 33.0, 27.0, (8.5, 14.5), 13.0, 40.0),
@@ -78,7 +82,7 @@ def _vertebra(bone: Vertebra, scale: float) -> Solid:
         for at, share in _WAIST
     ]
     body = swept("body", rows, CORTEX, _BODY)
-    core = swept("spongiosa", within(rows, scale * _SHELL_MM, count=9), SPONGIOSA, _BODY)
+    inside = swept("spongiosa", within(rows, scale * _SHELL_MM, count=9), SPONGIOSA, _BODY)
     wide, high = (scale * value / 2 for value in bone.pedicle)
     back, apart, reach = y + depth / 2, scale * bone.apart, scale * bone.reach
     arch: list[Solid] = []
@@ -86,20 +90,30 @@ def _vertebra(bone: Vertebra, scale: float) -> Solid:
     for side, sign in (("right", -1.0), ("left", 1.0)):
         x = sign * apart
         up = z + 0.16 * height
-        ends = ((x, back - 4.0 * scale, up), (1.1 * x, back + 15.0 * scale, up))
+        ends = ((x, back - 4.0 * scale, up), (1.1 * x, back + 11.0 * scale, up))
         arch.append(_tube(f"{side} pedicle", ends, (wide, high), CORTEX))
         inner = ((ends[0][0], ends[0][1] - 0.5, up), (ends[1][0], ends[1][1] - 1.0, up))
-        cores.append(_tube(f"{side} pedicle spongiosa", inner, (wide - 1.5, high - 1.5), SPONGIOSA))
+        hollow = (wide - _ARCH_SHELL_MM, high - _ARCH_SHELL_MM)
+        cores.append(_tube(f"{side} pedicle spongiosa", inner, hollow, SPONGIOSA))
         root: Point = (sign * 0.9 * apart, back + 12.0 * scale, up - 1.0 * scale)
         tip: Point = (sign * reach, back + 17.0 * scale, up + 2.0 * scale)
-        arch.append(
-            swept(
-                f"{side} transverse process",
-                _taper(root, tip, (6.2 * scale, 4.6 * scale), 0.62),
-                SPONGIOSA,
-                up=(0.0, 0.0, 1.0),
+        shell, core = (
+            Cone(
+                type="cone",
+                name=f"{side} transverse {part}",
+                material=material,
+                start=root,
+                end=tip,
+                start_radius=5.4 * scale - less,
+                end_radius=3.6 * scale - less,
+            )
+            for part, material, less in (
+                ("process", CORTEX, 0.0),
+                ("spongiosa", SPONGIOSA, _ARCH_SHELL_MM),
             )
         )
+        arch.append(shell)
+        cores.append(core)
         arch += [
             ellipsoid(
                 f"{side} {which} joint process",
@@ -117,14 +131,12 @@ def _vertebra(bone: Vertebra, scale: float) -> Solid:
                 SPONGIOSA,
             )
         )
-    spinous = (0.0, back + 38.0 * scale, z - 0.34 * height)
-    arch.append(
-        ellipsoid("spinous process", spinous, (3.4 * scale, 17.0 * scale, 9.0 * scale), CORTEX)
-    )
-    cores.append(
-        ellipsoid("spinous spongiosa", spinous, (2.2 * scale, 15.8 * scale, 7.8 * scale), SPONGIOSA)
-    )
-    return layered(union(*arch), union(*cores), body, core)
+    spinous = (0.0, back + 36.0 * scale, z - 0.42 * height)
+    half = (3.3 * scale, 14.0 * scale, 8.5 * scale)
+    arch.append(ellipsoid("spinous process", spinous, half, CORTEX))
+    core_half = (half[0] - 0.45, half[1] - 0.45, half[2] - 0.45)
+    cores.append(ellipsoid("spinous spongiosa", spinous, core_half, SPONGIOSA))
+    return layered(union(*arch), union(*cores), body, inside)
 
 
 def _tube(
@@ -141,21 +153,6 @@ def _tube(
     )
 
 
-def _taper(root: Point, tip: Point, half: tuple[float, float], least: float) -> list[Station]:
-    rows = []
-    for share, size in (
-        (0.0, 1.0),
-        (0.25, 0.9),
-        (0.5, 0.76),
-        (0.75, 0.74),
-        (0.9, least),
-        (1.0, 0.3),
-    ):
-        x, y, z = (a + share * (b - a) for a, b in zip(root, tip, strict=True))
-        rows.append(round_station((x, y, z), size * half[0], size * half[1]))
-    return rows
-
-
 # Height at the spine, angle from the back at which a rib ends, and how far it falls on the way.
 _RIBS: Final = {
     "8": (226.0, 132.0, 118.0),
@@ -166,23 +163,32 @@ _RIBS: Final = {
 }
 
 
+# The head and the neck: across from the middle, back, over the rib's height, half its own height.
+_NECK: Final = ((22.0, 46.0, 4.0, 4.0), (30.0, 60.0, 3.0, 5.0), (41.0, 74.0, 0.0, 5.6))
+_FIRST_DEG: Final = 30.0
+"""Angle from the back at which a rib has reached the wall."""
+
+
 def ribs(scale: float, trunk: Trunk) -> list[Solid]:
     """Return the lower ribs, in the wall about the cavity."""
     made: list[Solid] = []
     for number, (start_z, end_deg, fall) in _RIBS.items():
         for side, sign in (("right", -1.0), ("left", 1.0)):
-            rows = []
+            rows = [
+                round_station(
+                    (sign * scale * x, scale * y, scale * (start_z + up)), scale * half, scale * 3.0
+                )
+                for x, y, up, half in _NECK
+            ]
             for index in range(_RIB_SECTIONS + 1):
                 share = index / _RIB_SECTIONS
-                angle = math.radians(14.0 + share * (end_deg - 14.0))
+                angle = math.radians(_FIRST_DEG + share * (end_deg - _FIRST_DEG))
                 x = sign * (trunk.half_width + 5.0) * math.sin(angle)
                 y = (trunk.half_depth + 5.0) * math.cos(angle)
-                z = scale * (start_z - fall * math.sin(math.pi / 2 * share) ** 1.3)
-                size = 0.55 if index in (0, _RIB_SECTIONS) else 1.0 - 0.12 * share
-                rows.append(round_station((x, y, z), 5.9 * scale * size, 3.5 * scale * size))
-            # The end planes slope; what lies far above them is left out.
-            rows = [row for row in rows if row.at[2] < trunk.top + 30.0]
-            inner = within(rows, 1.0 * scale, least_mm=0.4)
+                z = scale * (start_z - 8.0 - fall * math.sin(math.pi / 2 * share) ** 1.3)
+                size = 0.55 if index == _RIB_SECTIONS else 1.0 - 0.12 * share
+                rows.append(round_station((x, y, z), 6.5 * scale * size, 3.3 * scale * size))
+            inner = within(rows, 0.8 * scale, least_mm=0.4)
             up = (0.0, 0.0, 1.0)
             shell = swept("cortex", rows, CORTEX, up=up, cuts=trunk.ends[:1])
             core = swept("spongiosa", inner, SPONGIOSA, up=up, cuts=trunk.ends[:1])

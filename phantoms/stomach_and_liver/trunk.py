@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
-from phantom.document import Cut, Ellipsoid, GeneralizedCylinder, Point, Solid
+from phantom.document import Cut, Ellipsoid, GeneralizedCylinder, Intersection, Point, Solid
 from phantom.library import Person
 from phantoms.parts import Outline, Station, layered, swept, union
 from phantoms.people import muscle_scale
@@ -18,12 +18,12 @@ from phantoms.stomach_and_liver.parameters import body_surface_m2
 
 SKIN, FAT, MUSCLE, VISCERA, LUNG = "skin", "fat", "muscle", "viscera", "lung"
 SKIN_MM: Final = 2.0
-_TOP_MM, _BOTTOM_MM = 174.0, -100.0
 MIDDLE_MM: Final = 37.0
 """Height of the middle of what is seen."""
+SEEN_MM: Final = 178.0
+"""How far from there the trunk goes on, up and down: more than the detector shows of its back."""
 _ROOM: Final = 0.95
 """How near to the cavity's wall organs may come."""
-_FOCUS_MM: Final = 1000.0
 _BEYOND_MM: Final = 30.0
 """How far the parts reach beyond the ends before they are cut."""
 _OUTLINE: Final[Outline] = (
@@ -32,15 +32,11 @@ _OUTLINE: Final[Outline] = (
     (-1.0, 0.08), (-0.96, -0.34), (-0.76, -0.72), (-0.42, -0.94),
 )  # fmt: skip
 # Share of the way up, and of the size there.
-_TAPER: Final = ((0.0, 1.0), (0.2, 0.975), (0.4, 0.965), (0.6, 0.99), (0.8, 1.01), (1.0, 0.99))
+_TAPER: Final = ((0.0, 1.07), (0.2, 1.02), (0.4, 0.97), (0.6, 0.99), (0.8, 1.01), (1.0, 0.99))
 
 
 class Trunk(NamedTuple):
-    """Sizes of one person's trunk, in mm; heights are over the middle of L3.
-
-    The ends are planes through ``focus``, where a tube in front stands, so that they are seen from
-    the edge, as what a collimator's blades leave.
-    """
+    """Sizes of one person's trunk, in mm; heights are over the middle of L3."""
 
     half_width: float
     half_depth: float
@@ -48,7 +44,6 @@ class Trunk(NamedTuple):
     fat: float
     bottom: float
     top: float
-    focus: Point
 
     @property
     def depth(self) -> float:
@@ -58,11 +53,9 @@ class Trunk(NamedTuple):
     @property
     def ends(self) -> tuple[Cut, Cut]:
         """The planes of both ends."""
-        _, y, z = self.focus
-        # Normals square to the line from the focus to the end's middle, and to x.
         return (
-            Cut(point=(0.0, 0.0, self.top), normal=(0.0, z - self.top, -y)),
-            Cut(point=(0.0, 0.0, self.bottom), normal=(0.0, self.bottom - z, y)),
+            Cut(point=(0.0, 0.0, self.top), normal=(0.0, 0.0, 1.0)),
+            Cut(point=(0.0, 0.0, self.bottom), normal=(0.0, 0.0, -1.0)),
         )
 
 
@@ -85,9 +78,8 @@ def trunk_of(
         half_depth=room * depth,
         muscle=13.0 * muscle_scale(person),
         fat=fat_mm,
-        bottom=scale * _BOTTOM_MM,
-        top=max(scale * _TOP_MM, highest_mm + 8.0),
-        focus=(0.0, -_FOCUS_MM, scale * MIDDLE_MM),
+        bottom=scale * MIDDLE_MM - SEEN_MM,
+        top=max(scale * MIDDLE_MM + SEEN_MM, highest_mm + 8.0),
     )
 
 
@@ -104,10 +96,27 @@ def envelope(trunk: Trunk) -> Solid:
 
 
 def lungs(trunk: Trunk, scale: float, highest_mm: float) -> list[Solid]:
-    """Return the lung bases, and the abdomen's domes that replace them again."""
-    cut = Cut(point=(0.0, 0.0, scale * 90.0), normal=(0.0, 0.0, -1.0))
+    """Return the lung bases, heart, and the abdomen's domes that replace them again."""
+    cut = Cut(point=(0.0, 0.0, scale * 70.0), normal=(0.0, 0.0, -1.0))
     bases = _shell("lung bases", LUNG, trunk, -4.0, (cut,))
     width, depth = trunk.half_width, trunk.half_depth
+    left_mm = scale * 157.0
+    heart = union(
+        _ellipsoid(
+            "heart",
+            (0.2 * width, -0.3 * depth, left_mm + 16.0),
+            (0.46 * width, 0.5 * depth, 46.0),
+            MUSCLE,
+            trunk.ends,
+        ),
+        _ellipsoid(
+            "mediastinum",
+            (0.02 * width, 0.25 * depth, left_mm + 10.0),
+            (0.24 * width, 0.62 * depth, 90.0),
+            VISCERA,
+            trunk.ends,
+        ),
+    )
     domes = union(
         _ellipsoid(
             "right dome",
@@ -119,19 +128,20 @@ def lungs(trunk: Trunk, scale: float, highest_mm: float) -> list[Solid]:
         _ellipsoid(
             "left dome",
             (0.5 * width, 0.04 * depth, scale * 40.0),
-            (0.56 * width, 1.12 * depth, scale * 117.0),
+            (0.56 * width, 1.12 * depth, left_mm - scale * 40.0),
             VISCERA,
             trunk.ends,
         ),
         _ellipsoid(
             "middle",
-            (0.0, 0.0, trunk.top - 55.0),
-            (0.3 * width, 0.9 * depth, 80.0),
+            (0.0, 0.1 * depth, scale * 60.0),
+            (0.5 * width, 1.0 * depth, left_mm - 12.0 - scale * 60.0),
             VISCERA,
             trunk.ends,
         ),
     )
-    return [bases, domes]
+    cavity = _shell("cavity", VISCERA, trunk, 0.0)
+    return [bases, Intersection(type="intersection", solids=(layered(heart, domes), cavity))]
 
 
 def _ellipsoid(

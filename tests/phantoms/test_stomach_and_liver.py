@@ -11,9 +11,11 @@ from phantom import library
 from phantom.document import Document
 from phantom.errors import InvalidInputError
 from phantom.library import Population, mean_person
+from phantom.requests.radiograph import plan
 from phantom.scene import Phantom, load
 from phantom.tracing import Intervals, intervals, path_lengths
-from phantoms.stomach_and_liver import entry
+from phantoms.stomach_and_liver import Parameters, entry
+from phantoms.stomach_and_liver.organs import Stomach
 from phantoms.stomach_and_liver.phantom import suspension
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -119,13 +121,66 @@ def test_fifth_lumbar_vertebra_as_published(
     assert measured == pytest.approx(pedicle, abs=wide_spread)
 
 
-def test_only_skin_is_outermost(trunks: dict[str, Phantom]) -> None:
-    trunk = trunks["female"]
-    origins, directions = beam(np.arange(-180.0, 181.0, 4.0), np.arange(-72.0, 140.0, 4.0))
-    found = intervals(trunk, origins, directions)
-    first = np.unique(found.ray, return_index=True)[1]
-    last = np.append(first[1:], len(found.ray)) - 1
-    assert {found.leaf_names[found.leaf[row]] for row in (*first, *last)} == {"skin"}
+@pytest.mark.parametrize(
+    "person",
+    [
+        {"sex": "male", "height_cm": 187.0, "weight_kg": 62.0},
+        {"sex": "female", "height_cm": 150.0, "weight_kg": 45.0},
+        {"sex": "female", "height_cm": 166.0, "weight_kg": 126.0},
+    ],
+)
+def test_only_skin_is_outermost(person: dict[str, Any]) -> None:
+    trunk = library.build("stomach-and-liver", **person)
+    front, ahead = beam(np.arange(-180.0, 181.0, 6.0), np.arange(-120.0, 190.0, 6.0))
+    aside = front[:, [1, 0, 2]]
+    for origins, directions in ((front, ahead), (aside, ahead[:, [1, 0, 2]])):
+        found = intervals(trunk, origins, directions)
+        first = np.unique(found.ray, return_index=True)[1]
+        last = np.append(first[1:], len(found.ray)) - 1
+        assert {found.leaf_names[found.leaf[row]] for row in (*first, *last)} == {"skin"}
+
+
+@pytest.mark.parametrize(
+    ("sex", "height", "weight"),
+    [("female", 150.0, 45.0), ("male", 200.0, 120.0)],
+)
+def test_the_trunk_goes_on_beyond_the_field(sex: str, height: float, weight: float) -> None:
+    """Its cut ends are never seen: below and above the picture's edge there is a whole person."""
+    person = {"sex": sex, "height_cm": height, "weight_kg": weight}
+    asked = {
+        "phantom": {"name": "stomach-and-liver", "parameters": person},
+        "view": {"preset": "ap"},
+        "detector": {"columns": 24, "rows": 24},
+        "acquisition": None,
+    }
+    shown = plan(asked).render()
+    assert shown.line_integral[[0, -1], 6:18].min() > 1.5
+    assert not shown.warnings
+
+
+def test_folds_stand_in_from_the_wall_of_the_body(trunks: dict[str, Phantom]) -> None:
+    """Twelve of them run along it, 4 to 5 mm high: seen from the axis, all around."""
+    trunk = trunks["male"]
+    chosen = Parameters().resolved()
+    height = chosen.person.height_cm
+    stomach = Stomach(
+        height / 168.5,
+        chosen.value("stomach_axis_mm"),
+        chosen.value("stomach_lumen_mm"),
+        chosen.stomach_wall_mm,
+    )
+    at, back, greater = stomach.frame(0.22)
+    turns = np.linspace(0.0, 2 * np.pi, 1440, endpoint=False)[:, None]
+    directions = np.cos(turns) * greater + np.sin(turns) * back
+    found = intervals(trunk, np.tile(at, (len(turns), 1)), directions)
+    highest: dict[str, float] = {}
+    for leaf, start, end in zip(found.leaf, found.entry_mm, found.exit_mm, strict=True):
+        name = found.leaf_names[leaf]
+        if name.startswith("stomach/fold"):
+            fold = name.split("-")[0]
+            highest[fold] = max(highest.get(fold, 0.0), float(end - start))
+    assert len(highest) == 12
+    assert all(3.0 < high < 5.5 for high in highest.values())
 
 
 def test_polyp_and_ulcer_are_where_they_are_said_to_be_and_nowhere_else(
