@@ -161,6 +161,9 @@ def _make(
         except (HaltedError, WorkersLostError) as error:
             say(f"{error}; what is finished is kept, and the same command goes on with it")
             raise typer.Exit(OUR_FAULT) from None
+        except KeyboardInterrupt:
+            say("stopped; what is finished is kept, and the same command goes on with it")
+            raise
     if isinstance(made, Finished):
         _tell(made, output, as_json=as_json)
     elif as_json:

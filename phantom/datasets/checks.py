@@ -5,20 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
+from itertools import product
 from typing import Any, Final
 
 from phantom import library
 from phantom.datasets.design import MOST_IMAGES, Design, DrawnPhantom
-from phantom.datasets.draws import ends
+from phantom.datasets.draws import TYPES, ends, stream
 from phantom.datasets.making import Maker
 from phantom.datasets.places import ROUNDING, people_of_splits, place
-from phantom.datasets.sampling import combinations, exposure, request
+from phantom.datasets.sampling import combinations, exposure, population, request
 from phantom.datasets.storage import Storage, sized
 from phantom.document import Model, validate_model
 from phantom.document.words import arranged
 from phantom.errors import InvalidInputError, Problem, pointer, prefixed
 from phantom.imaging.stereo import placed
 from phantom.imaging.visibility import check_display
+from phantom.library.people import Sex
 from phantom.requests.limits import Limits
 from phantom.requests.radiograph import RadiographPlan, RadiographRequest
 
@@ -26,7 +28,13 @@ BYTES_A_PIXEL: Final = {"noisy": 1.6, "ideal": 0.35, "codes": 2.0, "mask": 0.02}
 """Measured: 16-bit PNG with and without noise, coded NPY, masks."""
 
 BYTES_AN_IMAGE: Final = 12_000
-"""Measured: rows, names, metadata and the document, of a phantom of some leaves."""
+"""Measured: rows, names and metadata."""
+
+BYTES_A_MASK: Final = (120.0, 0.45)
+"""Measured, of one leaf's in COCO: as it is, and for each pixel of the detector's side."""
+
+TIMES_COCO: Final = 2.5
+"""It is in the ledger too, packed, and in the list of what a part has made."""
 
 
 def check(design: Design, limits: Limits | None = None) -> RadiographPlan:
@@ -138,6 +146,7 @@ def _of_library(design: Design, asked: DrawnPhantom) -> Iterator[Problem]:
     if entry.of_person is None and design.population is not None:
         message = f"found a population, but {entry.name} is nobody; expected null"
         yield Problem("/population", "no_effect", message)
+    yield from _people(design, entry)
     yield from _judged(entry.parameters, asked.parameters, ("phantom", "parameters"))
     known = entry.abnormalities
     for k, wrong in enumerate(design.abnormalities):
@@ -148,6 +157,24 @@ def _of_library(design: Design, asked: DrawnPhantom) -> Iterator[Problem]:
             continue
         where = ("abnormalities", k, "parameters")
         yield from _judged(known[wrong.type], wrong.parameters, where, {"type": wrong.type})
+
+
+def _people(design: Design, entry: library.Entry[Any]) -> Iterator[Problem]:
+    """Yield what a phantom refuses of the people that may be drawn: a man with a woman's breast."""
+    asked = population(design)
+    if asked is None or entry.of_person is None:
+        return
+    shares: dict[Sex, float] = {"female": asked.female, "male": 1.0 - asked.female}
+    seen = set()
+    for sex, age in product((sex for sex, share in shares.items() if share > 0), asked.age_years):
+        try:
+            entry.of_person(library.mean_person(sex, age), stream(design.seed))
+        except InvalidInputError as error:
+            for problem in error.problems:
+                name = "female" if problem.path == "/sex" else "age_years"
+                if problem.message not in seen:
+                    seen.add(problem.message)
+                    yield Problem(f"/population/{name}", problem.kind, problem.message)
 
 
 def _judged(
@@ -166,8 +193,10 @@ def _judged(
                 for problem in error.problems:
                     if problem.path.startswith(pointer((name,))) and problem.message not in seen:
                         seen.add(problem.message)
-                        at = pointer((*where, name))
-                        yield Problem(at, problem.kind, problem.message)
+                        at, message = pointer((*where, name)), problem.message
+                        if isinstance(value, Mapping):  # an object that is no distribution
+                            message += f", or a distribution: {', '.join(TYPES)}"
+                        yield Problem(at, problem.kind, message)
 
 
 def _words(design: Design) -> Iterator[Problem]:
@@ -212,7 +241,15 @@ def expected_bytes(design: Design, planned: RadiographPlan) -> int:
         picture *= 2.0 - healthy
     if kept.masks:
         picture += BYTES_A_PIXEL["mask"] * pixels
-    return int(design.images * (picture + BYTES_AN_IMAGE))
+    of_case = 0
+    if kept.coco:
+        fixed, by_side = BYTES_A_MASK
+        each = TIMES_COCO * (fixed + by_side * math.sqrt(pixels))
+        picture += each * len(planned.phantom.named_leaves)
+    if kept.documents:
+        of_case = len(planned.phantom.document.model_dump_json(exclude_none=True))
+    cases = design.people * design.cases_per_person
+    return int(design.images * (picture + BYTES_AN_IMAGE) + cases * of_case)
 
 
 def check_room(design: Design, planned: RadiographPlan, where: Storage) -> None:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import heapq
 import json
+import re
 from collections.abc import Iterator
 from contextlib import ExitStack
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from phantom.datasets.ledger import Ledger
 from phantom.datasets.names import STATE, part_name
 from phantom.datasets.storage import Storage
 from phantom.errors import InvalidInputError, Problem
+
+_DIVISION: Final = re.compile(r"(?:ledger|part)-\d+-of-(\d+)\.(?:sqlite|jsonl)$")
 
 
 class Part(NamedTuple):
@@ -35,6 +38,23 @@ def write_part(ledger: Ledger, where: Storage, part: Part, digest: str) -> None:
         errors = ((n, json.dumps({"error": error})) for n, error in ledger.aside())
         for number, text in heapq.merge(records, errors):
             stream.write(f"[{number},{text}]\n".encode())
+
+
+def check_division(where: Storage, part: Part) -> None:
+    """Refuse a set that was begun in another number of parts, which would not fit together.
+
+    Raises
+    ------
+    InvalidInputError
+        It was (``/shard``).
+    """
+    begun = {int(found[1]) for n in where.names(STATE) if (found := _DIVISION.search(n))}
+    if others := begun - {part.of}:
+        message = (
+            f"found a set in {min(others)} part{'s' * (min(others) > 1)} at {where.address!r},"
+            f" and {part.number}/{part.of}; expected the same number, or another place"
+        )
+        raise InvalidInputError([Problem("/shard", "other_division", message)])
 
 
 class Parts:
@@ -61,11 +81,13 @@ class Parts:
         expected = [part_name(k, wanted) for k in range(wanted)]
         missing = [name for name in expected if name not in self._names]
         if not self._names or missing or len(self._names) > wanted:
-            found = f"{len(self._names)} parts of {wanted or 'none'}"
-            short = ", ".join(missing[:5]) or "no others"
-            problems.append(
-                Problem("/output", "missing_part", f"found {found}; expected {short} too")
-            )
+            there = len(self._names)
+            message = f"found {there} of {wanted} parts; expected {', '.join(missing[:5])} too"
+            if not missing:
+                message = f"found parts of several divisions, {there} in all; expected those of one"
+            if not there:
+                message = "found no part; expected some"
+            problems.append(Problem("/output", "missing_part", message))
         if problems:
             raise InvalidInputError(problems)
 

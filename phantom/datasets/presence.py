@@ -55,16 +55,19 @@ def counts(design: Design) -> dict[str, tuple[int, ...]]:
 
 
 def cases_with(design: Design) -> dict[str, int]:
-    """Return how many cases have an abnormality of each type."""
-    found = dict.fromkeys((asked.type for asked in design.abnormalities), 0)
-    if design.exact_prevalence:
+    """Return how many cases have an abnormality of each type, one or more."""
+    types = [asked.type for asked in design.abnormalities]
+    found = dict.fromkeys(types, 0)
+    if design.exact_prevalence and (design.exclusive or len(found) == len(types)):
         for own in counts(design).values():
             for asked, count in zip(design.abnormalities, own, strict=True):
                 found[asked.type] += count
     elif found:
         for case in range(design.people * design.cases_per_person):
-            for k in present(design, place(design, case * len(design.views))):
-                found[design.abnormalities[k].type] += 1
+            for kind in {
+                types[k] for k in present(design, place(design, case * len(design.views)))
+            }:
+                found[kind] += 1
     return found
 
 

@@ -8,6 +8,7 @@ from typing import Any, Final, get_args
 from phantom import library
 from phantom.datasets.design import Design
 from phantom.document import Model, validate_model
+from phantom.errors import InvalidInputError
 
 SCATTER: Final = 0.1
 """Standard deviation of a parameter, as a share of its default, where nobody's size is known."""
@@ -67,7 +68,10 @@ FEW: Final = 10
 
 
 def scattered(model: type[Model]) -> dict[str, Any]:
-    """Return a distribution for each measure and each choice of a model that has a default."""
+    """Return a distribution for each measure and each choice of a model that has a default.
+
+    One whose ends do not go with the defaults of the others stays as it is.
+    """
     found: dict[str, Any] = {}
     schema = model.model_json_schema()["properties"]
     for name, field in model.model_fields.items():
@@ -83,8 +87,18 @@ def scattered(model: type[Model]) -> dict[str, Any]:
             high = min(told.get("maximum", default + 3 * sd), default + 3 * sd)
             if low < high:
                 shape = {"mean": default, "sd": sd, "low": low, "high": high}
-                found[name] = {"type": "normal", **{k: _short(v) for k, v in shape.items()}}
+                shape = {k: _short(v) for k, v in shape.items()}
+                if all(_goes(model, name, shape[end]) for end in ("low", "high")):
+                    found[name] = {"type": "normal", **shape}
     return found
+
+
+def _goes(model: type[Model], name: str, value: float) -> bool:
+    try:
+        validate_model(model, {name: value})
+    except InvalidInputError as error:
+        return not any(problem.path.startswith(f"/{name}") for problem in error.problems)
+    return True
 
 
 def _short(number: float) -> float:

@@ -55,10 +55,18 @@ class Subject:
 
 
 def population(design: Design) -> Population | None:
-    """Return who is X-rayed; None where the phantom is nobody, or its own defaults are wanted."""
-    if "population" in design.model_fields_set or not isinstance(design.phantom, DrawnPhantom):
-        return design.population
-    return None if library.entry(design.phantom.name).of_person is None else Population()
+    """Return who is X-rayed; None where the phantom is nobody, or its own defaults are wanted.
+
+    What is not said of them is as the phantom has it: a breast is a woman's.
+    """
+    asked = design.population
+    if not isinstance(design.phantom, DrawnPhantom):
+        return asked
+    entry = library.entry(design.phantom.name)
+    if entry.of_person is None or (asked is None and "population" in design.model_fields_set):
+        return asked
+    said = {} if asked is None else {n: getattr(asked, n) for n in asked.model_fields_set}
+    return entry.people.model_copy(update=said)
 
 
 def healthy(design: Design, person: int, attempt: int = 0) -> Subject:
@@ -161,7 +169,11 @@ def case(design: Design, at: Place, prepared: Callable[[Subject], Phantom]) -> C
     """
     refusal: InvalidInputError | None = None
     for who in range(TRIES):
-        plain = healthy(design, at.person, who)
+        try:
+            plain = healthy(design, at.person, who)
+        except InvalidInputError as error:
+            refusal = error
+            continue
         for attempt in range(TRIES):
             subject = replace(plain, abnormalities=findings(design, at, attempt))
             try:

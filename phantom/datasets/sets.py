@@ -16,7 +16,7 @@ from phantom.datasets.ledger import Counts, DiskFullError, HaltedError, Ledger, 
 from phantom.datasets.making import text
 from phantom.datasets.names import DESIGN, MANIFEST, SET_ASIDE, STATE, apart
 from phantom.datasets.opening import of_tree, read_design
-from phantom.datasets.parts import Part, write_part
+from phantom.datasets.parts import Part, check_division, write_part
 from phantom.datasets.places import units
 from phantom.datasets.running import LEASE_S, Supervisor, lock
 from phantom.datasets.storage import LocalFolder, Storage, storage, unusable
@@ -83,6 +83,7 @@ def make(
     with _usable("/output", where.address):
         if is_finished(wanted, where):
             return _as_it_is(wanted, where)
+        check_division(where, run.part)
     planned = check(wanted, limits)
     path = ledger_path(where, run)
     new = not path.exists()

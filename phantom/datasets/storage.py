@@ -64,7 +64,7 @@ class LocalFolder:
     """
 
     def __init__(self, path: Path | str, part: str = "whole") -> None:
-        self.path = Path(path).absolute()
+        self.path = Path(path).resolve()
         self._unfinished = self.path / STATE / f"unfinished-{part}"
 
     @property

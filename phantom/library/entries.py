@@ -10,6 +10,7 @@ from pydantic import BaseModel
 
 from phantom.document import Document, Model, told
 from phantom.document.base import Name
+from phantom.library.people import Population
 
 if TYPE_CHECKING:
     import numpy as np
@@ -99,6 +100,8 @@ class Entry(Generic[ParametersT]):
     of_person
         Draws the parameters of a person, with the scatter that people of that size and age have;
         None for a phantom that is nobody.
+    people
+        Who a series X-rays where nothing else is said.
     """
 
     name: str
@@ -111,6 +114,7 @@ class Entry(Generic[ParametersT]):
     techniques: Mapping[str, Technique] = field(default_factory=dict)
     abnormalities: Mapping[str, type[Abnormality]] = field(default_factory=dict)
     of_person: Callable[[Person, np.random.Generator], ParametersT] | None = None
+    people: Population = field(default_factory=Population)
 
     def technique_of(self, view: str | None) -> Technique:
         """Return the defaults of a preset view; None is a view with a source and a detector."""

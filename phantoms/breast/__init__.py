@@ -26,7 +26,7 @@ from phantom.document import (
     Solid,
     Transformed,
 )
-from phantom.library import Abnormality, Entry, Technique
+from phantom.library import Abnormality, Entry, Population, Technique
 from phantoms.breast.lesions import KINDS, lesions
 from phantoms.breast.parameters import SOURCES, Parameters, Sizes, of_person, sizes
 from phantoms.breast.strands import strands
@@ -202,4 +202,5 @@ entry = Entry(
     techniques={"left_lateral": _UPRIGHT, "right_lateral": _UPRIGHT, "ap": _UPRIGHT},
     abnormalities=KINDS,
     of_person=of_person,
+    people=Population(female=1.0),
 )

@@ -6,8 +6,10 @@ import pickle
 
 import pytest
 
-from phantom.datasets import forecast, make, quick
+from phantom import library
+from phantom.datasets import forecast, make, quick, read_design
 from phantom.datasets.checks import check, check_room, expected_bytes
+from phantom.datasets.sampling import healthy
 from phantom.datasets.storage import LocalFolder
 from phantom.errors import InvalidInputError, Problem, UnknownPhantomError
 
@@ -67,6 +69,10 @@ UNIFORM = {"type": "uniform", "low": 1.0, "high": 2.0}
         ({"people": 100_000_000, "cases_per_person": 3}, "/people"),
         ({"vary": {"kvp": {**UNIFORM}}}, "/vary/kvp"),
         ({"vary": {"colour": 3}}, "/vary/colour"),
+        (
+            {"phantom": {"name": "lesioned", "parameters": {"half_mm": {"type": "gauss"}}}},
+            "/phantom/parameters/half_mm",
+        ),
         ({"twins": True}, "/twins"),
         ({"outputs": {"visibility": True}}, "/outputs/visibility"),
         (
@@ -175,6 +181,24 @@ def test_a_quick_design_draws_what_has_no_people_about_its_defaults():
     assert drawn["bicondylar_width_mm"].mean == 88.6
     assert drawn["bicondylar_width_mm"].high == 110.0
     check(chosen)
+
+
+@pytest.mark.parametrize("name", sorted(library.names()))
+def test_a_quick_design_of_every_phantom_can_be_made(name):
+    """Whoever is drawn: a breast is a woman's, and measures go with each other."""
+    chosen = quick(name, 40, side=64)
+    check(chosen)
+    of = [healthy(chosen, person) for person in range(40)]
+    if name == "breast":
+        assert {subject.person.sex for subject in of} == {"female"}
+
+
+def test_men_are_refused_where_the_phantom_is_a_womans():
+    breast = {"phantom": {"name": "breast"}, "people": 10, "detector": {"columns": 64}}
+    check(read_design({**breast, "population": {"age_years": [50, 70]}}))
+    with pytest.raises(InvalidInputError) as refusal:
+        check(read_design({**breast, "population": {"female": 0.5}}))
+    assert [p.path for p in refusal.value.problems] == ["/population/female"]
 
 
 def test_a_quick_design_has_people_and_half_of_them_ill_where_the_phantom_can():

@@ -48,6 +48,12 @@ def test_every_split_has_its_share_to_the_case(design, exclusive):
     assert again == found["train"][7], "both views of a case show the same"
 
 
+def test_a_case_with_two_of_a_type_is_one_case(design):
+    twice = [{"type": "nodule", "prevalence": 1.0}] * 2
+    for exact in (False, True):
+        assert cases_with(design(abnormalities=twice, exact_prevalence=exact)) == {"nodule": 10}
+
+
 def test_what_whole_cases_do_not_allow_is_nearest_and_right_in_all(design):
     # 5 of 10: 4 of the 8, and of the two splits of one case one has it.
     wrong = [{"type": "nodule", "prevalence": 0.5}, {"type": "void", "prevalence": 0.5}]

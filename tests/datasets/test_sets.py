@@ -119,6 +119,21 @@ def test_shards_merged_give_the_same_bytes(plain, undisturbed, tmp_path, content
     assert merge(folder).images == 12, "a finished set is finished"
 
 
+def test_parts_of_another_division_are_refused_before_an_image_is_made(plain, tmp_path):
+    folder = tmp_path / "set"
+    make(plain, folder, Run(Part(0, 12), workers=1))
+    for run in (Run(workers=1), Run(Part(1, 3), workers=1)):
+        with pytest.raises(InvalidInputError) as refusal:
+            make(plain, folder, run)
+        assert [p.path for p in refusal.value.problems] == ["/shard"]
+    assert len(list(folder.rglob("*.mask.png"))) == 1
+
+
+def test_a_path_with_dots_makes_no_folder_on_its_way(plain, tmp_path):
+    make(plain, tmp_path / "way" / ".." / "set", Run(Part(0, 12), workers=1))
+    assert [p.name for p in tmp_path.iterdir()] == ["set"]
+
+
 def test_a_cancelled_run_goes_on_where_it_was(plain, undisturbed, tmp_path, content):
     folder, seen = tmp_path / "set", []
     with pytest.raises(CancelledError):
