@@ -24,7 +24,7 @@ from phantoms.parts import ellipsoid, union
 
 SKIN_MM: Final = 1.6
 OVER_SPINE_MM: Final = 2.0
-"""Of muscle and sinew over the spinous processes, where a back is shallow."""
+"""Of soft tissue under the skin over the spinous processes, at least."""
 LAYERS: Final = ("muscle", "fat", "skin")
 """Inside out; each is drawn with all that it encloses."""
 # z, half-width, front and back of the trunk under its fat, drawn, below what the arms move.
@@ -52,8 +52,9 @@ def trunk_rows(frame: Frame) -> list[Row]:
     tips = np.array(spine.spinous_tips(frame))
     found: list[Row] = []
     for z, low, high, front, back in sampled(fitted(frame, rows), 14):
-        near = tips[np.abs(tips[:, 1] - z) < 45.0, 0]
-        found.append((z, low, high, front, max(back, near.max(initial=-1e3) + OVER_SPINE_MM)))
+        near = tips[np.abs(tips[:, 1] - z) < 45.0, 0].max(initial=-1e3)
+        least = near + OVER_SPINE_MM - 0.7 * _fat(frame, z / frame.z)
+        found.append((z, low, high, front, max(back, least)))
     return found
 
 

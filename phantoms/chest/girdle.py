@@ -185,7 +185,7 @@ def blade_muscles(frame: Frame, name: str, material: str, more_mm: float) -> Sol
     ways = np.array(_blade_axes(frame)).T
     middle = _on_blade(frame, 35.0, -31.0, 3.0)
     rows = [(*map(float, way), at) for way, at in zip(ways, middle, strict=True)]
-    half = [frame.bone * h + more_mm for h in (45.0, 85.0, 10.0)]
+    half = [frame.bone * h + more_mm for h in (50.0, 92.0, 10.0)]
     return Transformed(
         type="transformed",
         solid=ellipsoid(name, (0.0, 0.0, 0.0), (half[0], half[1], half[2]), material),

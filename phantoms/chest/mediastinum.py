@@ -77,7 +77,7 @@ def heart_rows(frame: Frame) -> list[Row]:
     wide = frame.sizes.heart_width_mm / MODEL_HEART_MM
     across = wide / frame.x  # the chest's own stretch is undone
     rows: list[Row] = []
-    for z, right, left, front, back in sampled(HEART, 14):
+    for z, right, left, front, back in sampled(HEART, 12):
         middle = 0.5 * (front + back)
         half = 0.5 * (back - front) * min(max(wide / frame.y, 0.85), 1.15)
         # The heart rides on the diaphragm.
