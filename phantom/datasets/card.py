@@ -138,9 +138,12 @@ def _reading(design: Design) -> str:
             f'samples = webdataset.WebDataset("{first}/000000.tar", shardshuffle=False)'
         )
     else:
+        # Other names of splits are known from this page's head alone.
+        usual = set(splits) <= {"train", "validation", "test"}
+        where = '"imagefolder", data_dir="."' if usual else "os.getcwd()"
         code = (
-            "import datasets, pandas\n\n"
-            'images = datasets.load_dataset("imagefolder", data_dir=".")\n'
+            f"import {'' if usual else 'os, '}datasets, pandas\n\n"
+            f"images = datasets.load_dataset({where})\n"
             f'rows = pandas.read_json("{first}/metadata.jsonl", lines=True)'
         )
     return f"## Reading\n\n```python\n{code}\n```"

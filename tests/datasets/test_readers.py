@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import json
 import pickle
+import re
 from multiprocessing import get_context
 
 import numpy as np
@@ -79,6 +80,22 @@ def test_the_readme_is_a_dataset_card(folder, truth, tmp_path, monkeypatch):
     assert {split: len(rows) for split, rows in read.items()} == SPLITS
     row = read["test"][1]
     _agrees(row["image"], truth[row["index"]])
+
+
+def test_splits_of_any_name_are_read_as_the_readme_says(design, truth, tmp_path, monkeypatch):
+    monkeypatch.setenv("HF_HUB_OFFLINE", "1")
+    datasets = pytest.importorskip("datasets")
+    wanted = design(people=12, abnormalities=[NODULE], twins=True, splits={"readers": 9, "try": 3})
+    make(wanted, tmp_path / "set", Run(workers=2))
+    (code,) = re.findall(r"```python\n(.*?)```", (tmp_path / "set/README.md").read_text(), re.S)
+    monkeypatch.chdir(tmp_path / "set")
+    monkeypatch.setattr(datasets.config, "HF_DATASETS_CACHE", tmp_path / "cache")
+    said = {}
+    exec(code, said)
+    assert {split: len(rows) for split, rows in said["images"].items()} == {"readers": 9, "try": 3}
+    assert said["rows"]["label"].tolist() == [item["label"] for item in truth[:9]]
+    row = said["images"]["try"][0]
+    _agrees(row["image"], truth[9])
 
 
 def test_pandas_reads_the_rows(folder, truth):

@@ -5,9 +5,13 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import os
 import pickle
 import signal
+import subprocess
+import sys
 import tarfile
+import time
 import zipfile
 
 import numpy as np
@@ -16,7 +20,7 @@ from PIL import Image
 
 from phantom import datasets
 from phantom.datasets import Part, Run, make, merge
-from phantom.datasets.ledger import HaltedError
+from phantom.datasets.ledger import HaltedError, Ledger
 from phantom.datasets.names import MANIFEST, STATE
 from phantom.datasets.sampling import healthy
 from phantom.errors import CancelledError, InvalidInputError
@@ -119,6 +123,34 @@ def test_shards_merged_give_the_same_bytes(plain, undisturbed, tmp_path, content
     assert merge(folder).images == 12, "a finished set is finished"
 
 
+def test_an_interrupt_ends_with_130_and_leaves_what_is_finished(design, tmp_path):
+    """As a terminal sends it, to the whole group; far more images than are made until then."""
+    file, folder = tmp_path / "design.json", tmp_path / "set"
+    file.write_text(json.dumps(design(people=5_000).tree()))
+    command = [sys.executable, "-c", "from phantom.cli import main; main()"]
+    process = subprocess.Popen(
+        [*command, "dataset", str(file), str(folder), "--workers", "2"],
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    while process.poll() is None and len(list(folder.glob("train/*.mask.png"))) < 3:
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    _, said = process.communicate()
+    assert process.returncode == 130, said
+    assert said.splitlines() == [
+        "stopped; what is finished is kept, and the same command goes on with it"
+    ]
+    kept = Ledger(folder / STATE / "ledger-00000-of-00001.sqlite")
+    files = [file for _, _, told in kept.records() for file in json.loads(told)["files"]]
+    kept.close()
+    assert len(files) >= 3
+    for name, sha256, size in files:
+        data = (folder / name).read_bytes()
+        assert (hashlib.sha256(data).hexdigest(), len(data)) == (sha256, size)
+
+
 def test_parts_of_another_division_are_refused_before_an_image_is_made(plain, tmp_path):
     folder = tmp_path / "set"
     make(plain, folder, Run(Part(0, 12), workers=1))
@@ -194,8 +226,8 @@ def test_an_image_that_takes_too_long_is_set_aside(design, tmp_path):
     )
     hanging = [n for n in range(4) if healthy(wanted, n).parameters["fate"] == "hangs"]
     assert len(hanging) == 1
-    made = make(wanted, tmp_path / "set", Run(workers=1, lease_s=10.0))
-    assert made.aside == [(hanging[0], "it took longer than 10 s")]
+    made = make(wanted, tmp_path / "set", Run(workers=1, lease_s=30.0))
+    assert made.aside == [(hanging[0], "it took longer than 30 s")]
 
 
 def test_shards_hold_the_samples_at_fixed_times(design, tmp_path, content):

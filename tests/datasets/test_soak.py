@@ -198,6 +198,7 @@ class _cluster:  # noqa: N801
         module = [sys.executable, "-m", "distributed.cli.dask_scheduler"]
         type(self).scheduler = subprocess.Popen([*module, "--port", "0", *common], **quiet)
         while not self._file.exists() or not self._file.read_text():
+            assert self.scheduler.poll() is None
             time.sleep(0.2)
         module = [sys.executable, "-m", "distributed.cli.dask_worker"]
         alone = ["--nthreads", "1", "--no-nanny"]
