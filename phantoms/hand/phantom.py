@@ -153,7 +153,7 @@ entry = Entry(
         "rao": Technique(
             kvp=50.0,
             source_detector_mm=1000.0,
-            object_detector_mm=60.0,
+            object_detector_mm=80.0,
             window=(1.35, 2.7),
             air_kerma_ugy=2.5,
             field_mm=_FIELD_MM,

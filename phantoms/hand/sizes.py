@@ -61,11 +61,11 @@ WIDTHS: Final[dict[str, dict[str, Width]]] = {
         "little": Width(11.2, 6.7, 8.8, 8.0, 5.0, 5.7),
     },
     DISTAL: {
-        "thumb": Width(14.6, 7.6, 10.4, 9.0, 5.4, 4.8),
-        "index": Width(11.6, 5.2, 8.6, 7.4, 4.3, 3.9),
-        "middle": Width(12.1, 5.6, 9.2, 7.7, 4.5, 4.1),
-        "ring": Width(11.6, 5.4, 8.8, 7.3, 4.3, 3.9),
-        "little": Width(9.8, 4.5, 7.4, 6.2, 3.7, 3.4),
+        "thumb": Width(14.6, 7.6, 11.0, 9.0, 5.4, 4.8),
+        "index": Width(11.6, 5.2, 9.2, 7.4, 4.3, 3.9),
+        "middle": Width(12.1, 5.6, 9.8, 7.7, 4.5, 4.1),
+        "ring": Width(11.6, 5.4, 9.4, 7.3, 4.3, 3.9),
+        "little": Width(9.8, 4.5, 7.8, 6.2, 3.7, 3.4),
     },
 }
 
@@ -83,14 +83,10 @@ _PHALANX_BASE: Final = ((0.025, 0.92), (0.085, 1.0), (0.17, 0.72), (0.27, 0.33),
 # Place back from the plane through the head's middle.
 _METACARPAL_HEAD: Final = ((0.38, 0.02), (0.26, 0.16), (0.16, 0.45), (0.07, 0.84), (0.0, 0.97))
 _PHALANX_HEAD: Final = ((0.32, 0.02), (0.2, 0.2), (0.11, 0.56), (0.045, 0.9), (0.0, 0.96))
-_TUFT: Final = (
-    (0.52, 0.0),
-    (0.66, 0.26),
-    (0.77, 0.78),
-    (0.86, 1.0),
-)
+_DISTAL_BASE: Final = ((0.04, 0.97), (0.11, 0.93), (0.24, 0.44), (0.40, 0.07))
+_TUFT: Final = ((0.55, 0.0), (0.7, 0.38), (0.84, 0.98))
 # Beyond the tuft's widest place: shares of its size itself.
-_TIP: Final = ((0.94, 0.86), (0.985, 0.56), (1.0, 0.3))
+_TIP: Final = ((0.93, 0.86), (0.98, 0.56), (1.0, 0.3))
 
 
 def head_length_mm(kind: str, width: Width) -> float:
@@ -119,7 +115,8 @@ def stations(kind: str, width: Width, length_mm: float, bow_mm: float) -> list[S
         rows += [(at * length_mm, between(base, share)) for at, share in _METACARPAL_BASE]
     else:
         rows.append((-RIM_MM, (0.86 * base[0], 0.86 * base[1])))
-        rows += [(at * length_mm, between(base, share)) for at, share in _PHALANX_BASE]
+        near = _DISTAL_BASE if kind == DISTAL else _PHALANX_BASE
+        rows += [(at * length_mm, between(base, share)) for at, share in near]
     if kind == DISTAL:
         rows += [(at * length_mm, between(head, share)) for at, share in _TUFT]
         rows += [(at * length_mm, (share * head[0], share * head[1])) for at, share in _TIP]

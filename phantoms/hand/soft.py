@@ -45,8 +45,8 @@ _TUBES: Final[dict[str, tuple[tuple[float, float], ...]]] = {
     ),
 }  # fmt: skip
 _PALM: Final[tuple[Row, ...]] = (
-    (END_Z_MM, -31.5, 26.0, -23.0, 18.5),
-    (-80.0, -30.2, 26.0, -20.6, 16.8),
+    (END_Z_MM, -33.0, 27.0, -25.0, 20.5),
+    (-86.0, -30.4, 26.0, -20.9, 17.0),
     (-55.0, -30.6, 28.4, -19.0, 15.2),
     (-30.0, -33.6, 31.4, -19.8, 14.2),
     (-4.0, -39.4, 33.8, -19.8, 13.4),
@@ -169,7 +169,8 @@ def envelope(outer: Skin, fat_mm: float) -> Solid:
 def _inside(stations: Sequence[Station], depth_mm: float, closed: bool) -> Sequence[Station]:
     if depth_mm == 0.0:
         return stations
-    return within(stations, depth_mm, closed=(False, closed), least_mm=_LEAST_MM)
+    count = min(len(stations), max(6, len(stations) - 1))
+    return within(stations, depth_mm, closed=(False, closed), least_mm=_LEAST_MM, count=count)
 
 
 def _tube(digit: str, scale: float, frames: Sequence[Frame], end_mm: float) -> list[Station]:

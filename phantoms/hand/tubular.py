@@ -12,9 +12,9 @@ from phantoms.hand.sizes import DISTAL, METACARPAL, Width, head_length_mm, stati
 from phantoms.parts import Station, layered, swept, union, within
 
 CORTEX, SPONGIOSA, MARROW = "cortical bone", "spongiosa", "marrow"
-PLATE_MM: Final = 0.7
+PLATE_MM: Final = 0.5
 """Thickness of the bone under a joint's cartilage; an estimate."""
-_THIN_MM: Final = 0.45
+_THIN_MM: Final = 0.5
 """Thickness of the cortex at the ends of a bone; an estimate."""
 _BOW: Final = {METACARPAL: 0.028, DISTAL: 0.0}
 
@@ -146,12 +146,12 @@ def bone(
 
     spongy = within(outer, shape.walls(outer), closed=(True, shape.kind == DISTAL), count=9)
     whole = union(
-        swept("cortex", outer, CORTEX, cuts=cuts),
+        swept("cortex", _level(outer), CORTEX, cuts=cuts),
         *(knob.solid(knob.name, CORTEX, cuts) for knob in shape.knobs if kept(knob)),
         *(spur.model_copy(update={"cuts": tuple(cuts)}) for spur in spurs if kept(_knob(spur))),
     )
     core = union(
-        swept("spongiosa", spongy, SPONGIOSA, cuts=cuts),
+        swept("spongiosa", _level(spongy), SPONGIOSA, cuts=cuts),
         *(
             knob.grown(-_under(shape)).solid(f"{knob.name} spongiosa", SPONGIOSA, cuts)
             for knob in shape.knobs
@@ -167,6 +167,14 @@ def bone(
         *inside,
     )
     return Difference(type="difference", solids=(made, *eroded)) if eroded else made
+
+
+def _level(rows: Sequence[Station]) -> list[Station]:
+    """Return the sections of a bowed bone shifted from a straight axis instead."""
+    return [
+        Station((0.0, 0.0, z), reach, (low + bow, high + bow))
+        for (_, bow, z), reach, (low, high) in rows
+    ]
 
 
 def _knob(spur: Ellipsoid) -> Knob:

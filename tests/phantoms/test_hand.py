@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -124,6 +125,132 @@ def test_joint_space_is_what_was_asked_for(hands: dict[str, Phantom]) -> None:
         first = min(i for i, name in enumerate(names) if name.startswith("middle proximal"))
         gap = found.entry_mm[first] - found.exit_mm[last]
         assert gap == pytest.approx(space, abs=0.06)
+
+
+def bones_along(
+    hand: Phantom, start: tuple[float, ...], direction: tuple[float, ...]
+) -> list[tuple[str, float, float]]:
+    """The bones that a ray meets, in order: name, where it enters and where it leaves, in mm."""
+    found = intervals(hand, np.array([start]), np.array([direction]))
+    bones: list[tuple[str, float, float]] = []
+    for row, leaf in enumerate(found.leaf):
+        bone, _, part = found.leaf_names[leaf].partition("/")
+        if not part:
+            continue
+        entry_mm = bones.pop()[1] if bones and bones[-1][0] == bone else found.entry_mm[row]
+        bones.append((bone, float(entry_mm), float(found.exit_mm[row])))
+    return bones
+
+
+def test_the_middle_ray_stands_on_capitate_lunate_and_radius(hands: dict[str, Phantom]) -> None:
+    """From the side they are in line, with joints of 1 to 3 mm."""
+    for hand in hands.values():
+        x, y, _ = mark(hand, "middle metacarpal base")
+        line = bones_along(hand, (x - 1.0, y - 2.0, -70.0), (0.0, 0.0, 1.0))[:4]
+        names = [name for name, _, _ in line]
+        assert names == ["radius", "lunate", "capitate", "middle metacarpal"]
+        for (_, _, end), (_, start, _) in pairwise(line):
+            assert 1.0 < start - end < 3.0
+
+
+@pytest.mark.parametrize(
+    ("sex", "height_mm", "spread_mm"), [("male", 34.6, 2.2), ("female", 32.0, 1.7)]
+)
+def test_carpal_height_as_published(
+    hands: dict[str, Phantom], sex: str, height_mm: float, spread_mm: float
+) -> None:
+    """Along the middle metacarpal, from the radius: Fuentes et al., Cir. Cir. 74 (2006) 457."""
+    base, head = (mark(hands[sex], f"middle metacarpal {end}") for end in ("base", "head"))
+    direction = (head - base) / np.linalg.norm(head - base)
+    line = bones_along(hands[sex], tuple(base - 60 * direction), tuple(direction))
+    ends = {name: (first, last) for name, first, last in line}
+    height = ends["middle metacarpal"][0] - ends["radius"][1]
+    assert height == pytest.approx(height_mm, abs=spread_mm)
+
+
+@pytest.mark.parametrize(
+    ("z", "expected"),
+    [
+        (-26.4, ["triquetrum", "lunate", "scaphoid"]),
+        (-10.5, ["hamate", "capitate", "trapezoid"]),
+    ],
+)
+def test_a_film_from_the_front_shows_carpals_1_to_2_mm_apart(
+    hands: dict[str, Phantom], z: float, expected: list[str]
+) -> None:
+    hand = hands["male"]
+    x = np.arange(-40.0, 40.0, 0.05)
+    level = 1.04 * z
+    origins = np.stack([x, np.full(x.size, -80.0), np.full(x.size, level)], axis=1)
+    found = intervals(hand, origins, np.tile([0.0, 1.0, 0.0], (x.size, 1)))
+    bone = np.array([name.partition("/")[0] for name in hand.leaf_names])[found.leaf]
+    seen = [x[found.ray[bone == name]] for name in expected]
+    for one, two in pairwise(seen):
+        assert 1.0 < two.min() - one.max() < 2.0
+
+
+def test_the_lunate_holds_the_head_of_the_capitate_from_palm_and_back(
+    hands: dict[str, Phantom],
+) -> None:
+    """A crescent from the side: a line from palm to back meets it on both sides of the head."""
+    hand = hands["male"]
+    line = bones_along(hand, (-1.0, -60.0, -23.6), (0.0, 1.0, 0.0))
+    assert [name for name, _, _ in line] == ["lunate", "capitate", "lunate"]
+
+
+def test_thumb_rides_on_the_trapezium(hands: dict[str, Phantom]) -> None:
+    for hand in hands.values():
+        base, head = mark(hand, "thumb metacarpal base"), mark(hand, "thumb metacarpal head")
+        direction = (head - base) / np.linalg.norm(head - base)
+        line = bones_along(hand, tuple(base - 12 * direction), tuple(direction))
+        names = [name for name, _, _ in line]
+        first = names.index("trapezium")
+        assert names[first + 1] == "thumb metacarpal"
+        assert 1.0 < line[first + 1][1] - line[first][2] < 2.5
+
+
+def test_radius_leans_to_the_ulna_and_to_the_palm_as_published(
+    hands: dict[str, Phantom],
+) -> None:
+    """Hadi and Wijiono, Med. J. Indones. 22 (2013) 173: means and standard deviations of 400."""
+    hand = hands["male"]
+
+    x, y = np.meshgrid(np.arange(-12.0, 32.0, 0.5), np.arange(-9.0, 9.1, 1.0), indexing="ij")
+    origins = np.stack([x.ravel(), y.ravel(), np.full(x.size, -80.0)], axis=1)
+    found = intervals(hand, origins, np.tile([0.0, 0.0, 1.0], (x.size, 1)))
+    of_radius = np.array([name.startswith("radius/") for name in hand.leaf_names])[found.leaf]
+    top = np.full(x.size, -np.inf)
+    np.maximum.at(top, found.ray[of_radius], found.exit_mm[of_radius] - 80.0)
+    top = top.reshape(x.shape)
+    across = top[:, y[0] == 0.0].ravel()
+    styloid = int(np.argmax(across))
+    corner = int(np.argmax(np.where(x[:, 0] < -4.0, across, -np.inf)))
+    height = across[styloid] - across[corner]
+    assert height == pytest.approx(11.31, abs=1.66)
+    inclination = np.arctan2(height, x[styloid, 0] - x[corner, 0])
+    assert np.degrees(inclination) == pytest.approx(23.99, abs=3.75)
+    # The rims of the fossa from palm to back, where the lunate and the scaphoid meet.
+    along = top[np.flatnonzero(x[:, 0] == 6.0)[0]]
+    palm, back = (np.argmax(np.where(side, along, -np.inf)) for side in (y[0] < -3, y[0] > 3))
+    tilt = np.arctan2(along[back] - along[palm], y[0, back] - y[0, palm])
+    assert np.degrees(tilt) == pytest.approx(13.76, abs=4.36)
+
+
+def test_the_field_ends_within_the_forearm_and_beyond_the_fingertips() -> None:
+    for seed in range(8):
+        generator = np.random.default_rng(seed)
+        assert entry.of_person is not None
+        person = entry.of_person(Population().draw(generator), generator)
+        hand = load(entry.build(person).model_dump(mode="json"))
+        for view in entry.views:
+            technique = entry.technique_of(view)
+            assert technique.field_mm is not None
+            assert technique.object_detector_mm is not None
+            shrunk = 1.0 - technique.object_detector_mm / technique.source_detector_mm
+            half = technique.field_mm / 2 * shrunk
+            middle = mark(hand, "isocentre")[2]
+            assert hand.bounds[0][2] < middle - half
+            assert hand.bounds[1][2] < middle + half
 
 
 def test_twenty_seven_bones_and_their_neighbours(hands: dict[str, Phantom]) -> None:
