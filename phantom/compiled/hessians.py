@@ -100,25 +100,22 @@ def _batch(
         gradients.append([m0[a] + slope * n0[a] for a in range(3)])
         v = [m1[a] + slope * n1[a] for a in range(3)]
         b = (dot(m2, x) - scalar(2, row + 3) - slope * bend) * over_j
+        mixed = [v[a] * n0[a] * 2.0 if a == c else v[a] * n0[c] + v[c] * n0[a] for a, c in PAIRS]
         hessians.append(
-            [(v[a] * n0[c] + v[c] * n0[a] + b * (n0[a] * n0[c])) * over_j for a, c in PAIRS]
+            [(mixed[k] + b * (n0[a] * n0[c])) * over_j for k, (a, c) in enumerate(PAIRS)]
         )
     h = section.over(phi[0], phi[1])
+    # A circle's h_xy is 0.
+    skew = bool(np.any(h.hessian[1].low) or np.any(h.hessian[1].high))
     g = gradients
     bounds = result.hessians[chosen]
     for index, (a, c) in enumerate(PAIRS):
-        if a == c:
-            entry = (
-                h.hessian[0] * g[0][a].squared()
-                + h.hessian[1] * (g[0][a] * g[1][a]) * 2.0
-                + h.hessian[2] * g[1][a].squared()
-            )
-        else:
-            entry = (
-                h.hessian[0] * (g[0][a] * g[0][c])
-                + h.hessian[1] * (g[0][a] * g[1][c] + g[0][c] * g[1][a])
-                + h.hessian[2] * (g[1][a] * g[1][c])
-            )
+        entry = h.hessian[0] * (g[0][a].squared() if a == c else g[0][a] * g[0][c])
+        if skew and a == c:
+            entry = entry + h.hessian[1] * (g[0][a] * g[1][a]) * 2.0
+        elif skew:
+            entry = entry + h.hessian[1] * (g[0][a] * g[1][c] + g[0][c] * g[1][a])
+        entry = entry + h.hessian[2] * (g[1][a].squared() if a == c else g[1][a] * g[1][c])
         entry = entry + h.gradient[0] * hessians[0][index] + h.gradient[1] * hessians[1][index]
         if h.along is not None:
             # tau(x) has gradient N / J, and its Hessian comes from J tau' = N.d once more.

@@ -17,6 +17,8 @@ Ints = NDArray[np.intp]
 Table = StarTable | ChangingTable | None
 
 _BATCH = 1000
+_PARALLEL = 1e-14
+"""Planes whose normals differ less meet far outside every solid."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,8 @@ def meeting_pairs(parts: list[Traced]) -> tuple[Ints, Ints]:
     Two arrays ``(n, 2)``: the part and the segment in it, of the one and of the other.
     """
     cut = [part.segments for part in parts]
+    if all(_stacked(s) for s in cut):
+        return np.empty((0, 2), dtype=np.intp), np.empty((0, 2), dtype=np.intp)
     where = np.concatenate(
         [
             np.stack([np.full(len(s.origins), p), np.arange(len(s.origins))], axis=-1)
@@ -62,6 +66,12 @@ def meeting_pairs(parts: list[Traced]) -> tuple[Ints, Ints]:
     i, j = i[met], j[met]
     divided = _divided(parts, where[i], where[j]) | _divided(parts, where[j], where[i])
     return where[i[~divided]], where[j[~divided]]
+
+
+def _stacked(segments: Segments) -> bool:
+    """Whether parallel planes, each beyond the one before, divide all segments."""
+    normals, levels = segments.planes[:, :3], segments.planes[:, 3]
+    return bool(np.abs(normals - normals[0]).max() < _PARALLEL and (np.diff(levels) > 0).all())
 
 
 def _close(points: Floats, distance: float) -> tuple[Ints, Ints]:

@@ -39,6 +39,8 @@ Ints = NDArray[np.intp]
 _CHECKS = np.linspace(-1, 1, 3 * DEGREE + 2)[1:-1]
 _TRIPLES = np.array(list(combinations(range(8), 3)))
 _HULL_POINTS = 192
+_NEARLY_STRAIGHT = 1e-3
+"""An axis whose curvature times the section's reach stays below this is looked at no closer."""
 
 
 @dataclass(frozen=True)
@@ -134,6 +136,8 @@ def check_local_overlap(shape: Shape) -> None:
             f"the section at u = {u.ravel()[int(np.argmin(thin))]:.6g} is {thin.min():.3g} mm "
             f"thin; expected at least {tolerances.SMALLEST_SECTION_MM:g} mm",
         )
+    if reach.max() < _NEARLY_STRAIGHT:
+        return
     row, column = divmod(int(np.argmax(reach)), 65)
     low, high = u[row, max(column - 1, 0)], u[row, min(column + 1, 64)]
     for _ in range(4):
