@@ -30,13 +30,17 @@ SHEETS = {
     ),
     "studies": ("breast-of-spheres", "knee-1993", "fan", "deformed"),
 }
+POSES: dict[tuple[str, str], dict[str, object]] = {
+    ("breast", "mlo"): {"compression": "mlo"},
+    ("chest", "left_lateral"): {"arms": "raised"},
+}
 SIDE, CAPTION, COLUMNS, RENDERED = 320, 18, 4, 960
 IMAGES = Path(__file__).parent / "images"
 
 
 def picture(name: str, view: str) -> Image.Image:
-    """Return a phantom in a view, as a request without a word more shows it, made small."""
-    parameters = {"compression": "mlo"} if (name, view) == ("breast", "mlo") else {}
+    """Return a phantom in a view, in the pose for it, made small."""
+    parameters = POSES.get((name, view), {})
     request = {"phantom": {"name": name, "parameters": parameters}, "view": {"preset": view}}
     return framed(request, f"{name}   {view}")
 
