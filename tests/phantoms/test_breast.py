@@ -9,6 +9,7 @@ import phantom
 from phantom import library
 from phantom.errors import InvalidInputError
 from phantom.library import Person, Population
+from phantom.requests.radiograph import plan
 
 Z = [0.0, 0.0, -1.0]
 
@@ -45,6 +46,37 @@ def test_the_gland_has_its_share_of_the_volume(asked):
     found = _down(solid, *_lattice(solid, 1.5))
     share = found["gland"].sum() / (found["gland"] + found["fat"]).sum()
     assert share == pytest.approx(0.19 if asked is None else asked, abs=0.015)
+
+
+def test_ducts_and_ligaments_are_counted_with_the_gland(breast):
+    found = _down(breast, *_lattice(breast, 1.5))
+    share = found["gland"].sum() / (found["gland"] + found["fat"]).sum()
+    assert share == pytest.approx(0.19, abs=0.01)
+
+
+def test_fat_lies_around_the_gland(breast):
+    """Before the chest wall and at the edge, but not behind the nipple, where ducts meet."""
+    y = np.linspace(-90.0, -1.0, 60)
+    gland = _down(breast, np.zeros_like(y), y)["gland"]
+    assert gland[y > -8.0].max() < 3.0 < gland[(y < -80.0)].mean()
+    x = np.linspace(-93.0, 93.0, 80)
+    gland = _down(breast, x, np.full_like(x, -20.0))["gland"]
+    assert gland[np.abs(x) > 85.0].max() < 3.0 < gland[np.abs(x) < 60.0].mean()
+
+
+@pytest.mark.parametrize("view", ["cc", "mlo"])
+def test_the_picture_ends_before_the_chest_wall(view):
+    """No air is seen behind a right breast: it reaches the right edge of the detector."""
+    asked = {
+        "phantom": {"name": "breast", "parameters": {"compression": view}},
+        "view": {"preset": view},
+        "detector": {"columns": 64, "rows": 64},
+        "acquisition": None,
+    }
+    shown = plan(asked).render()
+    assert shown.line_integral[16:48, -1].min() > 3.0
+    assert shown.line_integral[:, :16].max() == 0.0
+    assert not shown.warnings
 
 
 def test_all_that_is_not_skin_lies_inside_it(breast):
