@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
-from phantom.document import Cylinder, Finding, Point, ReferenceMaterial, Solid
-from phantoms.knee import femur, shin
+from phantom.document import Finding, Point, ReferenceMaterial, Solid
+from phantoms.knee import condyles, plateau
 from phantoms.knee.abnormalities import Osteoarthritis
+from phantoms.knee.plateau import Facet, under_facet
 from phantoms.knee.poses import Pose
 from phantoms.parts import ellipsoid
 
@@ -36,7 +37,7 @@ def osteoarthritis(plan: Plan, index: int, name: str, one: Osteoarthritis) -> No
     if one.spur_mm > room:
         message = f"found {one.spur_mm:g}; expected {room:.3g} at most, under the skin"
         plan.refuse(index, "osteophyte_mm", "does_not_fit", message)
-    across, _ = shin.scales(sizes)
+    across, _ = plateau.scales(sizes)
     pivot = (-side * _CONTACT_X * across, 12.0, 0.0)
     angle = math.degrees(math.atan2(one.loss_mm, 2.0 * _CONTACT_X * across))
     plan.shin = Pose((0.0, 0.0, plan.at.plateau_z), side * angle, pivot)
@@ -53,7 +54,9 @@ def osteoarthritis(plan: Plan, index: int, name: str, one: Osteoarthritis) -> No
             reference="cortical_bone_icru44",
             density_g_cm3=round(0.85 * sizes.cortical_density, 4),
         )
-        plan.inside.append(_sclerosis(plan, f"{name}, sclerosis", one.dense_mm, side))
+        which: Facet = "medial facet" if side > 0.0 else "lateral facet"
+        plate = under_facet(sizes, which, one.dense_mm, "sclerosis")
+        plan.inside.append(plan.shin.solid(f"{name}, sclerosis", plate))
         leaves.append(f"{name}, sclerosis")
     middle = plan.shin.point((side * _CONTACT_X * across, 12.0, 0.0))
     size = (40.0 * across, 40.0 * across, max(sizes.joint_space - one.loss_mm, _LEAST_SPACE_MM))
@@ -67,7 +70,7 @@ def _spurs(plan: Plan, name: str, one: Osteoarthritis, side: float) -> list[Soli
     """Return spurs at the margins: all of the compartment's, small ones of the other."""
     tibia_x = plan.sizes.plateau_width / 2.0
     femur_x = 0.975 * plan.sizes.bicondylar_width / 2.0
-    along = femur.scales(plan.sizes)[1]
+    along = condyles.scales(plan.sizes)[1]
     found: list[Solid] = []
     for at_side, word in ((1.0, "medial"), (-1.0, "lateral")):
         spur = one.spur_mm if at_side == side else 0.4 * one.spur_mm
@@ -82,24 +85,3 @@ def _spurs(plan: Plan, name: str, one: Osteoarthritis, side: float) -> list[Soli
 
 def _spur(name: str, middle: Point, axes: Point) -> Solid:
     return ellipsoid(name, middle, axes, "osteophyte")
-
-
-def _sclerosis(plan: Plan, name: str, thick_mm: float, side: float) -> Cylinder:
-    """Return a plate under the plateau."""
-    across, along = shin.scales(plan.sizes)
-    nx, ny, nz = plan.shin.vector(shin.plateau(plan.sizes).normal)
-    start = plan.shin.point((side * 21.0 * across, 14.0 * along, 0.0))
-    slope = shin.plateau(plan.sizes)
-    # On the plateau's plane, then down by what is left of its wall.
-    fall = (14.0 * along - slope.point[1]) * slope.normal[1] / slope.normal[2]
-    x, y, z = start[0], start[1], start[2] - fall
-    low = 1.2 + thick_mm
-    return Cylinder(
-        type="cylinder",
-        name=name,
-        material="sclerosis",
-        start=(x - low * nx, y - low * ny, z - low * nz),
-        end=(x - 1.2 * nx, y - 1.2 * ny, z - 1.2 * nz),
-        semi_axes=(12.5 * across, 15.0 * along),
-        up=(1.0, 0.0, 0.0),
-    )

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from phantom.document import Anatomy, Document, Finding, Point, ReferenceMaterial
+from phantoms.knee import trabeculae
 from phantoms.knee.abnormalities import Wrong
 from phantoms.knee.parameters import SOURCES, Parameters, resolved, sizes_of
 from phantoms.knee.placing import placed
@@ -74,6 +75,10 @@ def _materials(sizes: Sizes) -> dict[str, ReferenceMaterial]:
             reference="spongiosa_icru44", density_g_cm3=round(sizes.spongiosa_density, 4)
         ),
         "marrow": ReferenceMaterial(reference="yellow_marrow_icru44"),
+        trabeculae.MATERIAL: ReferenceMaterial(
+            reference="cortical_bone_icru44",
+            density_g_cm3=round(trabeculae.OVER_SPONGIOSA * sizes.spongiosa_density, 4),
+        ),
     }
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 from pydantic import Field
 
 from phantom.document import told
-from phantom.document.base import Number
+from phantom.document.base import Integer, Number
 from phantom.library import PersonParameters
 from phantom.library.people import Side
 from phantoms.knee.sizes import Sizes
@@ -147,6 +147,12 @@ class Parameters(PersonParameters):
     spongiosa_density_g_cm3: Annotated[
         Null, _length("Spongiosa density", "Of spongy bone with its marrow.", 1.0, 1.4, "g/cm³")
     ] = None
+    trabecular_seed: Annotated[
+        Integer,
+        told(
+            "Trabecular seed", "none", "Which of many patterns the trabeculae are.", ge=0, lt=2**31
+        ),
+    ] = 0
 
 
 def resolved(parameters: Parameters) -> Parameters:
@@ -164,7 +170,9 @@ def of_person(person: Person, generator: np.random.Generator) -> Parameters:
         name: _COMMON * common + rest * at if index < _TOGETHER else at
         for index, (name, at) in enumerate(zip(names, own, strict=True))
     }
-    return _filled(Parameters(side=side, **person.model_dump()), scatter)
+    seed = int(generator.integers(2**31))
+    own_parameters = Parameters(side=side, trabecular_seed=seed, **person.model_dump())
+    return _filled(own_parameters, scatter)
 
 
 def _filled(parameters: Parameters, scatter: dict[str, float]) -> Parameters:
@@ -230,4 +238,5 @@ def sizes_of(parameters: Parameters) -> Sizes:
         muscle=at["muscle"],
         cortical_density=cortical_density_g_cm3(parameters.person),
         spongiosa_density=at["spongiosa_density_g_cm3"],
+        trabecular_seed=at["trabecular_seed"],
     )

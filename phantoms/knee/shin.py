@@ -1,8 +1,8 @@
-"""The upper half of tibia and fibula: plateau, spines, tuberosity, shafts.
+"""The upper half of tibia and fibula: heads, tuberosity, shafts.
 
-The tibia is a generalized cylinder that a sloping plane cuts off at the plateau; two ellipsoids
-rise from it as the spines, between them and around them a lower one. The fibula is one generalized
-cylinder with its head.
+The tibia is a generalized cylinder that leans back toward the sloping plateau and is round at its
+rim; facets are hollowed from it, and the eminence rises from it. The fibula is another, with neck,
+head and styloid.
 
 The tables hold a man's right bones, the middle of the plateau at z = 0; they are estimates between
 the published sizes that scale them.
@@ -12,20 +12,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from phantom.document import Cut, Ellipsoid, Solid
+from phantom.document import Cut, Difference, Ellipsoid, Solid
+from phantoms.draws import generator_of
 from phantoms.knee.femur import tilted_ellipsoid
+from phantoms.knee.plateau import MIDDLE_Y, PLATEAU_WALL_MM, eminence, facets, scales
 from phantoms.knee.sizes import Sizes
-from phantoms.parts import Outline, Station, ellipsoid, is_left, layered, swept, union, within
+from phantoms.knee.trabeculae import Region, plates, solids_of
+from phantoms.parts import (
+    Outline,
+    Station,
+    ellipsoid,
+    is_left,
+    layered,
+    round_station,
+    swept,
+    union,
+    within,
+)
 
-WIDTH: Final = 75.87
-DEPTH: Final = 47.75
-"""Of the table's plateau, as traced."""
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    FloatArray = NDArray[np.float64]
+
 SHAFT: Final = 24.0
 FIBULA_SHAFT: Final = 13.0
-NOTCH: Final = 22.0
 
 # In the frame (x, y): the crest in front at -1, a hollow behind, the medial side (x > 0) fuller.
 OUTLINE: Final[Outline] = (
@@ -33,23 +47,27 @@ OUTLINE: Final[Outline] = (
     (0.5, -0.78),
     (0.92, -0.12),
     (0.97, 0.5),
-    (0.62, 0.97),
-    (0.0, 0.82),
-    (-0.6, 0.94),
+    (0.64, 0.9),
+    (0.1, 1.0),
+    (-0.55, 0.93),
     (-0.97, 0.48),
     (-0.92, -0.14),
     (-0.5, -0.8),
 )
-# z from the plateau, x of the lateral and medial border, y of front and back border, wall in mm.
+# Under the plateau, x of the lateral and medial border, y of front and back border, wall in mm. The
+# rim is round.
 _HEAD: Final = (
-    (12.0, -37.0, 37.0, -11.4, 35.2, 1.4),
-    (-3.0, -38.05, 38.05, -11.9, 36.3, 1.4),
-    (-8.0, -37.6, 37.8, -12.0, 35.4, 1.4),
-    (-17.0, -34.2, 35.4, -13.4, 32.0, 1.5),
-    (-28.0, -29.0, 31.0, -16.8, 27.8, 1.7),
-    (-42.0, -23.4, 25.0, -19.8, 24.4, 2.0),
-    (-60.0, -18.0, 18.8, -15.8, 22.4, 2.5),
+    (0.0, -34.0, 34.0, -7.8, 32.4, 1.2),
+    (1.0, -36.4, 36.4, -10.4, 34.8, 1.2),
+    (4.4, -38.05, 38.05, -12.0, 36.3, 1.0),
+    (9.5, -37.4, 37.6, -12.2, 35.4, 1.0),
+    (18.0, -33.8, 35.0, -13.4, 31.8, 1.2),
+    (29.0, -28.4, 30.4, -16.4, 27.8, 1.5),
+    (42.0, -23.2, 24.8, -19.4, 24.4, 1.9),
+    (60.0, -18.0, 18.8, -15.8, 22.4, 2.5),
 )
+_LEANS: Final = (2.0, 20.0)
+"""Under the plateau, where the axis stops to lean with it, and from where on it is upright."""
 # z as a share of half the tibia's length, x and y of the borders, share of the cortex.
 _SHAFT: Final = (
     (-0.46, -15.2, 15.4, -12.4, 21.6, 0.58),
@@ -58,95 +76,111 @@ _SHAFT: Final = (
     (-1.25, -12.0, 12.0, -6.5, 19.5, 1.0),
 )
 _MIDSHAFT: Final = 2
-_PLATEAU_Y: Final = 12.0
-_PLATEAU_WALL_MM: Final = 1.7
 _BEYOND_MM: Final = 8.0
+_PLATES: Final = 60
+"""Trabeculae under the plateau."""
+_PLATES_Z: Final = (-66.0, -3.4)
+_PLATES_Y: Final = 19.0
+"""How far from the middle of the plateau they are at most."""
+_SPREAD_PER_MM: Final = 0.006
 _CANAL_FROM_Z: Final = -62.0
-# Center and semi-axes, in mm over the plateau: medial spine, lateral spine, the rise around them.
-_SPINES: Final = (
-    ("medial spine", (5.4, 13.0, -1.0), (3.7, 8.5, 9.2)),
-    ("lateral spine", (-5.0, 15.0, -1.0), (3.6, 8.0, 7.8)),
-    ("eminence", (0.2, 14.5, -1.5), (12.0, 12.0, 4.2)),
-)
-
-# z under the plateau, x and y of the axis, its radius across and from front to back.
+# z under the plateau, x and y of the axis, its radius across and from front to back, the wall; the
+# styloid is at the back of the head.
 _FIBULA_HEAD: Final = (
-    (-12.2, -38.7, 36.6, 2.4, 2.5),
-    (-14.0, -38.6, 36.3, 5.6, 5.8),
-    (-17.6, -38.4, 35.8, 8.3, 8.5),
-    (-25.0, -37.9, 34.8, 9.8, 10.0),
-    (-36.0, -36.8, 33.2, 8.4, 8.7),
-    (-52.0, -35.2, 31.2, 5.9, 6.3),
+    (-9.8, -36.6, 38.6, 1.5, 1.7, 1.0),
+    (-12.6, -36.4, 37.6, 4.0, 4.4, 1.0),
+    (-18.6, -36.0, 36.0, 8.3, 8.6, 1.0),
+    (-27.0, -35.4, 34.9, 9.9, 10.2, 1.0),
+    (-37.0, -34.8, 33.4, 8.3, 8.8, 1.1),
+    (-49.0, -33.7, 31.7, 6.4, 6.8, 1.6),
 )
 _FIBULA_SHAFT: Final = (
-    (-95.0, -32.4, 28.4, 6.2, 6.5),
-    (-150.0, -30.6, 27.4, 6.5, 6.6),
-    (-250.0, -29.6, 27.4, 6.5, 6.6),
+    (-68.0, -32.4, 30.0, 5.7, 6.2, 0.8),
+    (-100.0, -31.4, 28.6, 6.0, 6.4, 1.0),
+    (-160.0, -30.4, 27.4, 6.5, 6.6, 1.0),
+    (-250.0, -29.6, 27.4, 6.5, 6.6, 1.0),
 )
-_FIBULA_INSIDE: Final = ((-37.8, 34.6, -25.0), (8.6, 8.8, 11.0))
-"""Center and semi-axes of the spongiosa of the head."""
-_FIBULA_NECK: Final = ((-35.3, 31.4, -51.0), (4.2, 4.6, 26.0))
-"""Center and semi-axes of the marrow of the neck."""
-_FIBULA_CANAL_FROM_Z: Final = -38.0
-
-
-def scales(sizes: Sizes) -> tuple[float, float]:
-    """Return the factors of the plateau across and from front to back."""
-    return sizes.plateau_width / WIDTH, sizes.plateau_depth / DEPTH
-
-
-def plateau(sizes: Sizes, down_mm: float = 0.0) -> Cut:
-    """Return the plane of the plateau, or one below it."""
-    slope = math.radians(sizes.slope_deg)
-    normal = (0.0, math.sin(slope), math.cos(slope))
-    _, along = scales(sizes)
-    point = (0.0, _PLATEAU_Y * along - down_mm * normal[1], -down_mm * normal[2])
-    return Cut(point=point, normal=normal)
+_FIBULA_CANAL_FROM_Z: Final = -44.0
 
 
 def tibia(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
     """Return the tibia, the middle of its plateau at z = 0, as far as ``cuts`` keep it."""
     stations, walls = tibia_stations(sizes)
-    inner = within(stations, walls, closed=(False, False))
-    top, under = plateau(sizes), plateau(sizes, _PLATEAU_WALL_MM)
+    inner = within(stations, walls, closed=(False, True))
+    bone = swept("cortex", stations, "cortical bone", OUTLINE, cuts=cuts)
+    spongy = swept("spongiosa", inner, "spongiosa", OUTLINE, cuts=cuts)
     return layered(
         union(
-            swept("cortex", stations, "cortical bone", OUTLINE, cuts=(top, *cuts)),
-            *_spines(sizes, "cortex of the ", "cortical bone", 0.0, cuts),
+            Difference(type="difference", solids=(bone, *facets(sizes, 0.0))),
+            *eminence(sizes, 0.0, cuts),
         ),
         union(
-            swept("spongiosa", inner, "spongiosa", OUTLINE, cuts=(under, *cuts)),
-            *_spines(sizes, "spongiosa of the ", "spongiosa", 1.0, cuts),
+            Difference(type="difference", solids=(spongy, *facets(sizes, PLATEAU_WALL_MM))),
+            *eminence(sizes, PLATEAU_WALL_MM, cuts),
         ),
+        *solids_of(_trabeculae(sizes, inner), cuts),
         *_left(_canal(sizes), cuts),
     )
 
 
+def _trabeculae(sizes: Sizes, inner: Sequence[Station]) -> list[FloatArray]:
+    """Return upright plates under the plateau, which lean out with the borders."""
+    import numpy as np
+
+    across, along = scales(sizes)
+    _, generator = generator_of(sizes.trabecular_seed).spawn(2)
+    # The plateau falls away behind; plates end under what is lowest of it.
+    fall = _PLATES_Y * along * math.tan(math.radians(sizes.slope_deg))
+    low, high = (z * along for z in _PLATES_Z)
+
+    def upright(points: FloatArray) -> FloatArray:
+        found = np.zeros_like(points)
+        found[:, 0], found[:, 2] = _SPREAD_PER_MM * points[:, 0] / across, 1.0
+        return found
+
+    return plates(Region(inner, "z", 0.79, (low, high - fall)), _PLATES, upright, generator, along)
+
+
 def tibia_stations(sizes: Sizes) -> tuple[list[Station], list[float]]:
-    """Return the tibia's sections from below to over the plateau, and the wall at each."""
+    """Return the tibia's sections from below to the plateau, and the wall at each."""
     import numpy as np
 
     across, along = scales(sizes)
     wide, half_length = sizes.tibia_shaft / SHAFT, sizes.tibia_length / 2.0
     rows: list[tuple[float, ...]] = [
-        (z * along, left * across, right * across, front * along, back * along, wall)
-        for z, left, right, front, back, wall in _HEAD
+        (-down * along, left * across, right * across, front * along, back * along, wall)
+        for down, left, right, front, back, wall in _HEAD
     ]
     rows += [
         (z * half_length, *(wide * value for value in borders), share * sizes.tibia_cortex)
         for z, *borders, share in _SHAFT
-        if z * half_length < 1.25 * _HEAD[-1][0] * along
+        if z * half_length < 1.25 * rows[-1][0]
     ]
     bottom = -sizes.limb - _BEYOND_MM
     table = np.array(rows[::-1])
     last = [float(np.interp(bottom, table[:, 0], column)) for column in table.T[1:]]
     rows = [*(row for row in rows if row[0] > bottom + 18.0), (bottom, *last)]
-    y = _PLATEAU_Y * along
-    stations = [
-        Station((0.0, y, row[0]), (row[1], row[2]), (row[3] - y, row[4] - y)) for row in rows
-    ]
+    stations = []
+    for z, left, right, front, back, _ in rows:
+        y, at_z, upright = _axis(sizes, -z)
+        # Where the axis leans, borders go with it.
+        middle = MIDDLE_Y * along * (1.0 - upright) + y * upright
+        stations.append(Station((0.0, y, at_z), (left, right), (front - middle, back - middle)))
     # From below, so that b = t x n is +y.
     return stations[::-1], [row[5] for row in rows][::-1]
+
+
+def _axis(sizes: Sizes, down_mm: float) -> tuple[float, float, float]:
+    """Return y and z of the axis so far down it, and how far it has come upright (0 to 1)."""
+    import numpy as np
+
+    along = scales(sizes)[1]
+    start, end = (at * along for at in _LEANS)
+    steps = np.linspace(0.0, down_mm, 101)
+    share = np.clip((steps - start) / (end - start), 0.0, 1.0)
+    lean = math.radians(sizes.slope_deg) * (1.0 - share)
+    y = MIDDLE_Y * along - float(np.trapezoid(np.sin(lean), steps))
+    return y, -float(np.trapezoid(np.cos(lean), steps)), float(share[-1])
 
 
 def _canal(sizes: Sizes) -> Ellipsoid:
@@ -167,79 +201,40 @@ def fibula(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
     thick = sizes.fibula_shaft / FIBULA_SHAFT
     bottom = -sizes.limb - _BEYOND_MM
     rows = [
-        (z * along, x * across, y * along, a * along, b * along) for z, x, y, a, b in _FIBULA_HEAD
+        (z * along, x * across, y * along, a * along, b * along, wall)
+        for z, x, y, a, b, wall in _FIBULA_HEAD
     ]
     rows += [
-        (z, x * across, y * along, a * thick, b * thick)
-        for z, x, y, a, b in _FIBULA_SHAFT
-        if z > bottom + 18.0
+        (z, x * across, y * along, a * thick, b * thick, share * sizes.fibula_cortex)
+        for z, x, y, a, b, share in _FIBULA_SHAFT
+        if bottom + 18.0 < z < rows[-1][0] - 10.0
     ]
     rows.append((bottom, *rows[-1][1:]))
-    x0, y0 = rows[-1][1], rows[-1][2]
-    stations = [
-        Station((x0, y0, z), (x - x0 - a, x - x0 + a), (-(y - y0) - b, -(y - y0) + b))
-        for z, x, y, a, b in rows
-    ]
-    return layered(swept("cortex", stations, "cortical bone", cuts=cuts), *_in_fibula(sizes, cuts))
-
-
-def _in_fibula(sizes: Sizes, cuts: Sequence[Cut]) -> list[Solid]:
-    """Return the spongiosa of the head and the canal of the shaft."""
-    across, along = scales(sizes)
-    (x, y, z), (a, b, c) = _FIBULA_INSIDE
-    center = (x * across, y * along, z * along)
-    head = ellipsoid("spongiosa", center, (a * along, b * along, c * along), "spongiosa")
-    end = _FIBULA_CANAL_FROM_Z * along
-    low_z = min(-0.5 * sizes.tibia_length, end - 60.0)
-    low_x, low_y = (
-        factor * float(_between(low_z, column)) for factor, column in ((across, 1), (along, 2))
+    stations = [round_station((x, y, z), a, b) for z, x, y, a, b, _ in rows]
+    inner = within(stations, [row[5] for row in rows], closed=(True, False))
+    return layered(
+        swept("cortex", stations, "cortical bone", cuts=cuts),
+        swept("spongiosa", inner, "spongiosa", cuts=cuts),
+        *_fibula_canal(sizes, rows, cuts),
     )
-    high_x, high_y = -36.4 * across, 32.8 * along
-    # From the head's neck down the middle of the shaft.
+
+
+def _fibula_canal(
+    sizes: Sizes, rows: Sequence[tuple[float, ...]], cuts: Sequence[Cut]
+) -> list[Solid]:
+    """Return the canal: a long ellipsoid from the neck to the middle of the shaft."""
+    _, along = scales(sizes)
+    end = _FIBULA_CANAL_FROM_Z * along
+    _, high_x, high_y, *_ = rows[len(_FIBULA_HEAD) - 1]
+    low_z, low_x, low_y, *_ = rows[-1]
+    low_z = min(low_z, -0.5 * sizes.tibia_length)
     tilt = math.degrees(math.atan2(high_x - low_x, end - low_z))
     radius = sizes.fibula_shaft / 2.0 - sizes.fibula_cortex
-    middle = (low_x, (low_y + 0.25 * (high_y - low_y)), low_z)
-    canal = tilted_ellipsoid("marrow", middle, (radius, radius, end - low_z), tilt, cuts)
-    x, y, z = _FIBULA_NECK[0]
-    a, b, c = _FIBULA_NECK[1]
-    center = (x * across, y * along, z * along)
-    axes = (a * along, b * along, c * along)
-    neck = tilted_ellipsoid("marrow of the neck", center, axes, tilt, cuts)
-    return [*_left(head, cuts), *neck, *canal]
+    middle = (low_x, low_y + 0.25 * (high_y - low_y), low_z)
+    return tilted_ellipsoid("marrow", middle, (radius, radius, end - low_z), tilt, cuts)
 
 
 def _left(solid: Ellipsoid, cuts: Sequence[Cut]) -> list[Ellipsoid]:
     """Return what planes leave of an ellipsoid, if anything."""
     kept = solid.model_copy(update={"cuts": tuple(cuts)})
     return [kept] if is_left(kept) else []
-
-
-def _between(z: float, column: int) -> float:
-    """Return x or y of the fibula's axis in the table, at a height."""
-    rows = sorted((*_FIBULA_HEAD, *_FIBULA_SHAFT))
-    for low, high in pairwise(rows):
-        if z <= high[0]:
-            share = max(0.0, (z - low[0]) / (high[0] - low[0]))
-            return low[column] + share * (high[column] - low[column])
-    return rows[-1][column]
-
-
-def _spines(
-    sizes: Sizes, prefix: str, material: str, wall_mm: float, cuts: Sequence[Cut]
-) -> list[Solid]:
-    """Return what rises over the plateau, a wall's thickness inside."""
-    across, along = scales(sizes)
-    # The spines stand in the notch.
-    across = min(across, sizes.notch_width / NOTCH)
-    slope = math.tan(math.radians(sizes.slope_deg))
-    found: list[Solid] = []
-    for name, (x, y, z), (a, b, c) in _SPINES:
-        fall = (y - _PLATEAU_Y) * along * slope
-        solid = ellipsoid(
-            prefix + name,
-            (x * across, y * along, z * along - fall),
-            (a * across - wall_mm, b * along - wall_mm, c * along - wall_mm),
-            material,
-        )
-        found += _left(solid, cuts)
-    return found

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from phantom.document import Point
-from phantoms.knee import femur, shin
+from phantoms.knee import condyles, plateau
 from phantoms.knee.femur import lean_x
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def in_bone(plan: Plan, name: str) -> Site:
         room = 0.3 * min(sizes.patella_thickness, 0.8 * sizes.patella_height)
         return Site("patella", plan.cap.point(middle), room)
     site = _IN_BONE[name]
-    scales = femur.scales(plan.sizes) if site.bone == "femur" else shin.scales(plan.sizes)
+    scales = condyles.scales(plan.sizes) if site.bone == "femur" else plateau.scales(plan.sizes)
     x, y, z = site.middle
     drawn = (x * scales[0], y * scales[1], z * scales[1])
     if name == "distal_femur":
@@ -53,7 +53,7 @@ def in_bone(plan: Plan, name: str) -> Site:
 
 def in_joint(plan: Plan, name: str) -> Site:
     """Return a site of the joint's cavity."""
-    across, along = femur.scales(plan.sizes)
+    across, along = condyles.scales(plan.sizes)
     lift = plan.at.femur_z
     middles = {
         "suprapatellar_pouch": Site("femur", (-3.0, -26.4, 64.0), 6.5),
@@ -67,7 +67,7 @@ def in_joint(plan: Plan, name: str) -> Site:
 
 def under_skin(plan: Plan, name: str) -> Site:
     """Return a site between bone and skin."""
-    across, along = femur.scales(plan.sizes)
+    across, along = condyles.scales(plan.sizes)
     fat = plan.sizes.fat
     if name == "front_of_the_patella":
         x, y, z = plan.at.ridge

@@ -37,3 +37,4 @@ class Sizes:
     muscle: float
     cortical_density: float
     spongiosa_density: float
+    trabecular_seed: int

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Final
 
 from phantom.document import Cylinder, Point, Solid
-from phantoms.knee import femur, shin
+from phantoms.knee import condyles, plateau
 from phantoms.knee.placing import Placed
 from phantoms.knee.sizes import Sizes
 from phantoms.parts import Station, ellipsoid, swept
@@ -56,7 +56,7 @@ def _rows(sizes: Sizes) -> list[tuple[float, ...]]:
 
 def _station(sizes: Sizes, row: tuple[float, ...], fat: float, more_mm: float) -> Station:
     across, along = (
-        max(pair) for pair in zip(femur.scales(sizes), shin.scales(sizes), strict=True)
+        max(pair) for pair in zip(condyles.scales(sizes), plateau.scales(sizes), strict=True)
     )
     z, right, left, front, back, *over, fat_side, fat_front = row
     muscle = [sizes.muscle * value for value in over]
@@ -73,7 +73,7 @@ def _station(sizes: Sizes, row: tuple[float, ...], fat: float, more_mm: float) -
 
 def inner_parts(sizes: Sizes, at: Placed) -> list[Solid]:
     """Return fat pads, tendons and cartilage."""
-    across, along = femur.scales(sizes)
+    across, along = condyles.scales(sizes)
     _, ridge_y, ridge_z = at.ridge
     top, apex = ridge_z + sizes.patella_height / 2.0, ridge_z - sizes.patella_height / 2.0
     front = ridge_y - sizes.patella_thickness
@@ -125,7 +125,7 @@ def _band(name: str, start: Point, end: Point, semi_axes: tuple[float, float]) -
 
 def _tibiofemoral_cartilage(sizes: Sizes, plateau_z: float) -> Cylinder:
     """Return the disc between the bones: both layers of cartilage, and the menisci around them."""
-    plane = shin.plateau(sizes)
+    plane = plateau.plane(sizes)
     nx, ny, nz = plane.normal
     x, y, z = plane.point[0], plane.point[1], plane.point[2] + plateau_z
     thick = sizes.joint_space + 2.0

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from phantom.document import Cut, Cylinder, Finding, Point, ReferenceMaterial, Solid, Sphere
 from phantom.errors import InvalidInputError
 from phantoms.knee import abnormalities as known
-from phantoms.knee import femur, shin
+from phantoms.knee import condyles, femur, plateau
 from phantoms.knee.abnormalities import Wrong
 from phantoms.knee.arthritis import osteoarthritis
 from phantoms.knee.plan import Plan
@@ -144,7 +144,7 @@ def _foreign_body(plan: Plan, index: int, name: str, one: known.ForeignBody) -> 
 
 def _effusion(plan: Plan, name: str, one: known.Effusion) -> None:
     """Fluid before the femur: the strip grows forward from the bone."""
-    across, along = femur.scales(plan.sizes)
+    across, along = condyles.scales(plan.sizes)
     half = one.depth_mm / 2.0
     middle = (-3.0 * across, -16.0 * along - half, 68.0 * along + plan.at.femur_z)
     axes = (20.0 * across, half + 1.0, 25.0 * along)
@@ -177,11 +177,11 @@ def _breaks(plan: Plan, one: known.Fracture) -> tuple[str, Point, Point, Point, 
     tilt = math.radians(one.tilt_deg)
     sizes, at = plan.sizes, plan.at
     if one.site == "femoral_shaft":
-        z = min(92.0 * femur.scales(sizes)[1] + at.femur_z, sizes.limb - 16.0)
+        z = min(92.0 * condyles.scales(sizes)[1] + at.femur_z, sizes.limb - 16.0)
         x = femur.lean_x(sizes, z)
         up = (math.sin(tilt), 0.0, math.cos(tilt))
         return "femur", (x, -1.0, z), up, (math.cos(tilt), 0.0, -math.sin(tilt)), 34.0
-    across, along = shin.scales(sizes)
+    across, along = plateau.scales(sizes)
     if one.site == "tibial_shaft":
         point = plan.shin.point((0.0, 6.0, -68.0 * along))
         below = (math.sin(tilt), 0.0, -math.cos(tilt))

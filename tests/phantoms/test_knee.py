@@ -222,6 +222,20 @@ def bare_rays(phantom: Phantom, step_mm: float) -> list[str]:
     return sorted(outside - {"skin"})
 
 
+def without_trabeculae(tree: Any) -> Any:
+    """Return a solid without the plates."""
+    if "solid" in tree:
+        return {**tree, "solid": without_trabeculae(tree["solid"])}
+    if "solids" not in tree:
+        return tree
+    parts = [
+        without_trabeculae(part)
+        for part in tree["solids"]
+        if not (part.get("solid", {}).get("name") or "").startswith("trabecula")
+    ]
+    return {**tree, "solids": parts}
+
+
 def drawn_document(index: int) -> Any:
     sequence = np.random.SeedSequence(1993, spawn_key=(index,))
     generator = np.random.Generator(np.random.Philox(sequence))
@@ -243,3 +257,32 @@ def test_a_persons_bones_are_apart_and_under_the_skin(index: int) -> None:
 def test_a_thousand_persons_bones_are_apart_and_under_the_skin(hundred: int) -> None:
     for index in range(100):
         holds(drawn_document(100 * hundred + index), 4.0)
+
+
+@pytest.mark.parametrize("index", range(4))
+def test_trabeculae_take_the_place_of_spongy_bone_alone(index: int) -> None:
+    """Without them every ray crosses as much of everything else, and spongy bone in their stead."""
+    tree = drawn_document(index).model_dump(mode="json")
+    rng = np.random.default_rng(index)
+    origins = rng.uniform(-120.0, 120.0, (20000, 3)) * [0.4, 0.4, 1.0] - [0.0, FAR, 0.0]
+    directions = rng.normal([0.0, 1.0, 0.0], 0.02, origins.shape)
+    phantom = load(tree)
+    whole = path_lengths(phantom, origins, directions)
+    plain = path_lengths(load(without_trabeculae(tree)), origins, directions)
+    spongy, plates = (phantom.material_names.index(name) for name in ("spongiosa", "trabeculae"))
+    assert whole[:, plates].max() > 2.0
+    assert (plain[:, plates] == 0.0).all()
+    whole[:, spongy] += whole[:, plates]
+    others = np.arange(whole.shape[1]) != plates
+    assert np.allclose(whole[:, others], plain[:, others], rtol=0, atol=1e-6)
+
+
+def test_trabeculae_are_of_the_person() -> None:
+    """Another seed is another pattern in the same bone; the twin with a lesion has the same one."""
+    first, again = library.document("knee"), library.document("knee", {"age_years": 45.0})
+    other = library.document("knee", {"trabecular_seed": 1})
+    assert first.solid == again.solid
+    assert first.solid != other.solid
+    assert without_trabeculae(first.solid.model_dump(mode="json")) == without_trabeculae(
+        other.solid.model_dump(mode="json")
+    )
