@@ -96,10 +96,16 @@ def run_on(
 def _connected(address: str) -> Any:
     try:
         from distributed import Client
+        from distributed.comm.addressing import parse_address, parse_host_port
+        from distributed.comm.registry import get_backend
     except ImportError:
         message = "found a scheduler, which needs the extra cluster; expected it to be installed"
         raise InvalidInputError([Problem("/scheduler", "missing_extra", message)]) from None
     try:
+        # A client that never was would wait for its own end, so the address is judged first.
+        scheme, place = parse_address(address)
+        get_backend(scheme)
+        parse_host_port(place)
         return Client(address, timeout=CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, TimeoutError, ValueError) as error:
         said = worded(error)

@@ -141,7 +141,9 @@ class Ledger:
                 rows = ((n, unit.number) for unit in units for n in unit.images)
                 change.executemany("INSERT INTO image (number, unit) VALUES (?, ?)", rows)
             elif known != about:
-                word = "design" if known["design"] != digest else "part"
+                word = (
+                    "design, or version of this program," if known["design"] != digest else "part"
+                )
                 message = (
                     f"found the ledger of another {word} at {str(self.path)!r};"
                     " expected an empty place, or the same again"

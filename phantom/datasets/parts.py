@@ -76,7 +76,7 @@ class Parts:
                 about = json.loads(stream.readline())
             wanted = max(wanted, about["parts"])
             if about["design"] != digest:
-                message = f"found {name} of another design"
+                message = f"found {name} of another design or version; expected those of this one"
                 problems.append(Problem("/output", "other_design", message))
         expected = [part_name(k, wanted) for k in range(wanted)]
         missing = [name for name in expected if name not in self._names]

@@ -91,7 +91,8 @@ def make(
         check_room(wanted, planned, where)
     _with_kernels()
     with ExitStack() as stack:
-        with _usable("/ledger" if run.ledger else "/output", str(path)):
+        named = ("/ledger", str(path)) if run.ledger else ("/output", where.address)
+        with _usable(*named):
             path.parent.mkdir(parents=True, exist_ok=True)
             stack.callback(os.close, _locked(path))
             ledger = stack.enter_context(closing(_opened(path)))
@@ -224,7 +225,10 @@ def is_finished(design: Design, where: Storage) -> bool:
         with where.reading(own) as stream:
             known = decode_json(stream.read())
         if known != design.tree():
-            message = f"found a set of another design at {where.address!r}; expected none"
+            message = (
+                f"found a set of another design at {where.address!r};"
+                " expected the same design, or another place"
+            )
             raise InvalidInputError([Problem("/output", "other_design", message)])
         return finished
     there = [name for name in where.names("") if name != STATE]

@@ -256,7 +256,10 @@ def storage(address: str | Path, part: str = "whole") -> Storage:
     try:
         return Remote(address)
     except ImportError as error:
-        message = f"found {address[:80]!r}, which needs a package: {error}"
+        message = (
+            f"found {address[:80]!r}, which needs a package: {error};"
+            " expected the extra remote, and what fsspec needs for this kind of address"
+        )
         raise InvalidInputError([Problem("/output", "missing_extra", message)]) from None
     except ValueError as error:
         message = f"found {address[:80]!r}: {error}; expected an address that fsspec knows"

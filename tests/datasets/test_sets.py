@@ -151,6 +151,17 @@ def test_an_interrupt_ends_with_130_and_leaves_what_is_finished(design, tmp_path
         assert (hashlib.sha256(data).hexdigest(), len(data)) == (sha256, size)
 
 
+def test_another_version_does_not_go_on_with_a_set(plain, tmp_path, monkeypatch):
+    """Its bytes may be others."""
+    run = Run(Part(0, 12), workers=1)
+    make(plain, tmp_path / "set", run)
+    monkeypatch.setattr("phantom.datasets.design.version", lambda _: "9.9")
+    with pytest.raises(InvalidInputError, match="another design, or version of this program"):
+        make(plain, tmp_path / "set", run)
+    with pytest.raises(InvalidInputError, match="another design or version"):
+        merge(tmp_path / "set")
+
+
 def test_parts_of_another_division_are_refused_before_an_image_is_made(plain, tmp_path):
     folder = tmp_path / "set"
     make(plain, folder, Run(Part(0, 12), workers=1))
@@ -325,6 +336,14 @@ def test_a_worker_of_a_cluster_refuses_a_place_that_it_does_not_see(plain, tmp_p
 
     with pytest.raises(InvalidInputError, match="do not see"):
         make_chunk(plain.tree(), str(tmp_path / "of-another-machine"), None, [0])
+
+
+@pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:port", "foo://127.0.0.1:1", ""])
+def test_what_is_no_address_of_a_scheduler_is_refused(plain, tmp_path, address):
+    with pytest.raises(InvalidInputError) as refusal:
+        make(plain, tmp_path / "set", Run(scheduler=address))
+    assert [p.path for p in refusal.value.problems] == ["/scheduler"]
+    assert list((tmp_path / "set").iterdir()) == []
 
 
 def test_places_that_cannot_be_used_are_refused_and_nothing_is_left(plain, tmp_path):
