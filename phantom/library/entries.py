@@ -51,6 +51,9 @@ class Technique:
     window
         Centre and width of the one range of line integrals that is shown, so that no lesion and no
         case shifts another's greys; None for a stretch of each image by itself, as in the paper.
+    window_follows
+        A length among the document's parameters, the millimetres of it that ``window`` is for, and
+        by how much the centre rises for each one more: as an exposure control does with thickness.
     field_mm
         Width and height of the detector, so that pictures of all people have one scale and show
         what a radiographer would; None for one that the whole phantom falls on.
@@ -64,11 +67,22 @@ class Technique:
     object_detector_mm: float | None = None
     polarity: str = "bones_white"
     window: tuple[float, float] | None = None
+    window_follows: tuple[str, float, float] | None = None
     kvp: float | None = None
     anode: str | None = None
     filtration_mm: Mapping[str, float] | None = None
     air_kerma_ugy: float | None = None
     field_mm: float | None = None
+
+    def window_of(self, parameters: Mapping[str, object]) -> tuple[float, float] | None:
+        """Return centre and width of the window for a phantom with these parameters."""
+        if self.window is None or self.window_follows is None:
+            return self.window
+        name, usual_mm, slope_per_mm = self.window_follows
+        found = parameters.get(name)
+        over_mm = found - usual_mm if isinstance(found, int | float) else 0.0
+        center, width = self.window
+        return round(center + slope_per_mm * over_mm, 6), width
 
 
 @dataclass(frozen=True, slots=True)

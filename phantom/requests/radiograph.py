@@ -241,7 +241,8 @@ def plan_of(
     acquisition, noise = _acquisition(request, technique), request.noise
     check_cost(acquisition, detector, beam, phantom.document.materials, limits, images)
     check_exposure(phantom, view, beam, acquisition)
-    presentation = _presentation(request.presentation, technique)
+    window = technique.window_of(phantom.document.parameters)
+    presentation = _presentation(request.presentation, technique.polarity, window)
     chosen = {
         **_placing(phantom, request.view, view, recommended),
         "columns": detector.columns,
@@ -274,7 +275,9 @@ def _filled(model: ModelT, **defaults: object) -> ModelT:
     return cast("ModelT", model.model_construct(_fields_set=model.model_fields_set, **content))
 
 
-def _presentation(asked: Presentation, technique: library.Technique) -> Presentation:
+def _presentation(
+    asked: Presentation, polarity: str, window: tuple[float, float] | None
+) -> Presentation:
     """Return the presentation with what the request left out as the technique has it.
 
     The technique's window is used where the request wants a window but gives none, or says nothing
@@ -285,11 +288,11 @@ def _presentation(asked: Presentation, technique: library.Technique) -> Presenta
     InvalidInputError
         A window is wanted and there is none.
     """
-    usual: dict[str, object] = {"polarity": technique.polarity}
+    usual: dict[str, object] = {"polarity": polarity}
     silent = not {"mode", "scope", *OF_MODE} & asked.model_fields_set
     wanting = asked.mode == "window" and asked.window_center is None
-    if technique.window is not None and (silent or wanting):
-        center, width = technique.window
+    if window is not None and (silent or wanting):
+        center, width = window
         usual |= {"mode": "window", "scope": "fixed"}
         usual |= {"window_center": center, "window_width": width}
     filled = _filled(asked, **usual)

@@ -28,7 +28,14 @@ from phantom.document import (
 )
 from phantom.library import Abnormality, Entry, Population, Technique
 from phantoms.breast.lesions import KINDS, lesions
-from phantoms.breast.parameters import SOURCES, Parameters, Sizes, of_person, sizes
+from phantoms.breast.parameters import (
+    MEAN_THICKNESS_MM,
+    SOURCES,
+    Parameters,
+    Sizes,
+    of_person,
+    sizes,
+)
 from phantoms.breast.strands import strands
 from phantoms.breast.tissue import Body, lobes, lobule_solid, lobules
 from phantoms.draws import generator_of
@@ -184,6 +191,7 @@ _TECHNIQUE: Final = Technique(
     source_detector_mm=_SOURCE_DETECTOR_MM,
     field_mm=_FIELD_MM,
     window=(3.4, 1.6),
+    window_follows=("thickness_mm", MEAN_THICKNESS_MM, 0.05),
     air_kerma_ugy=100.0,
 )
 

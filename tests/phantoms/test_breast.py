@@ -79,6 +79,23 @@ def test_the_picture_ends_before_the_chest_wall(view):
     assert not shown.warnings
 
 
+@pytest.mark.parametrize("view", ["cc", "mlo"])
+def test_fat_is_as_grey_in_a_thick_breast_as_in_a_thin_one(view):
+    """The window moves with the thickness: the lowest tenth of its greys stays dark grey."""
+    for thickness_mm in (30.0, 45.0, 59.0, 75.0, 90.0):
+        given = {"compression": view, "thickness_mm": thickness_mm, "lobules": 200, "strands": 0}
+        asked = {
+            "phantom": {"name": "breast", "parameters": given},
+            "view": {"preset": view},
+            "detector": {"columns": 96, "rows": 96},
+            "acquisition": None,
+        }
+        made = plan(asked)
+        shown = np.asarray(made.render().presented("signal", made.presentation)) / 255.0
+        assert 0.3 < np.quantile(shown[shown > 0.2], 0.1) < 0.55
+        assert np.mean(shown > 0.99) < 0.02
+
+
 def test_all_that_is_not_skin_lies_inside_it(breast):
     x, y = _lattice(breast, 4.0)
     origins = np.stack([x, y, np.full(len(x), 500.0)], axis=1)

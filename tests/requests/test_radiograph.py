@@ -114,6 +114,16 @@ def test_a_phantom_with_a_window_is_shown_in_it_unless_asked_otherwise():
     assert shown(window_center=1, window_width=1) == ("window", "fixed", 1, 1)
 
 
+def test_a_window_may_move_with_a_length_of_the_phantom(monkeypatch):
+    technique = library.Technique(window=(1.5, 3.0), window_follows=("radius_mm", 20.0, 0.05))
+    entry = dataclasses.replace(library.entry("sphere"), technique=technique)
+    monkeypatch.setattr(library, "entry", lambda _: entry)
+    for radius_mm, center in ((20.0, 1.5), (30.0, 2.0), (14.0, 1.2)):
+        sphere = {"phantom": {"name": "sphere", "parameters": {"radius_mm": radius_mm}}}
+        shown = plan(sphere).presentation
+        assert (shown.window_center, shown.window_width) == (pytest.approx(center), 3.0)
+
+
 def test_a_window_that_nobody_gave_is_asked_for_before_anything_is_traced():
     with pytest.raises(InvalidInputError) as refusal:
         plan(SPHERE | {"presentation": {"scope": "fixed"}})
