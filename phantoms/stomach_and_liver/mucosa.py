@@ -120,7 +120,7 @@ def duodenum(stomach: Stomach, scale: float) -> Solid:
         _cone(f"wall {index + 1}", WALL, ends, (scale * _GIRTH_MM,) * 2)
         for index, ends in enumerate(pairwise(places))
     ]
-    narrow = [scale * (4.6 + 1.2 * math.sin(1.1 * index)) for index in range(_PIECES + 1)]
+    narrow = [scale * (5.6 + 1.4 * math.sin(1.1 * index)) for index in range(_PIECES + 1)]
     pools: list[Solid] = [
         _cone(f"core {index + 1}", BARIUM, ends, radii)
         for index, (ends, radii) in enumerate(zip(pairwise(places), pairwise(narrow), strict=True))
@@ -129,11 +129,11 @@ def duodenum(stomach: Stomach, scale: float) -> Solid:
     for index in range(1, number):
         at = along[-1] * (index + 0.3 * math.sin(2.7 * index)) / number
         # Barium between two circular folds: a flat piece across the axis, a little askew.
-        wide = scale * _GIRTH_MM * (0.80 + 0.14 * math.sin(2.1 * index))
+        wide = scale * _GIRTH_MM * (0.82 + 0.09 * math.sin(2.1 * index))
         deep = scale * _GIRTH_MM * (0.72 + 0.14 * math.sin(1.7 * index + 1.0))
-        thin = scale * _APART_MM * (0.36 + 0.12 * math.sin(1.3 * index))
+        thin = scale * _APART_MM * (0.42 + 0.10 * math.sin(1.3 * index))
         lean = np.array([math.sin(3.1 * index), math.sin(1.9 * index), math.sin(2.3 * index)])
-        way = _unit(_unit(np.asarray(line(at, 1), dtype=np.float64)) + 0.28 * lean)
+        way = _unit(_unit(np.asarray(line(at, 1), dtype=np.float64)) + 0.16 * lean)
         middle = np.asarray(line(at), dtype=np.float64)
         pools.append(_piece(f"barium {index}", BARIUM, middle, way, (wide, deep, thin)))
     return layered(union(*wall), union(*pools))
