@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from phantom.document import GeneralizedCylinder, Rotation, Solid, Sphere, Transformed
+from phantom.document import Instance, Rotation, Solid, Transformed
 from phantoms.chest import spine
 from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
@@ -16,10 +16,10 @@ from phantoms.chest.girdle import (
     clavicle_muscles,
     from_socket,
     kept,
-    right_shoulder,
+    shoulder_turn,
 )
-from phantoms.chest.ribs import SIDES, on_side
 from phantoms.chest.shapes import Row, column, fitted, grown, rounded, sampled, tube
+from phantoms.chest.sides import SIDES, on_side
 from phantoms.parts import ellipsoid, union
 
 SKIN_MM: Final = 1.6
@@ -67,25 +67,19 @@ def _trunk(frame: Frame, name: str, material: str, layer: int) -> Solid:
     return column(name, rows, material, _TRUNK_SHAPE)
 
 
-def _arm(frame: Frame, name: str, material: str, layer: int) -> GeneralizedCylinder:
+def _arm(frame: Frame, material: str, layer: int) -> list[Solid]:
+    """Return an arm with its round upper end, and the muscle about its joint."""
     fat = 0.5 * frame.sizes.fat_mm
     more = (0.0, fat, fat + SKIN_MM)[layer]
     points = arm_axis(frame)
     radii = [r * frame.bone + more for r in _ARM_RADII]
-    return tube(name, points, radii, material)
-
-
-def _shoulder(frame: Frame, name: str, material: str, layer: int) -> Solid:
-    fat = 0.5 * frame.sizes.fat_mm
-    more = (0.0, fat, fat + SKIN_MM)[layer]
     centre, radius = frame.girdle.shoulder
-    return Sphere(
-        type="sphere",
-        name=name,
-        material=material,
-        center=from_socket(frame, centre),
-        radius=radius * frame.bone + more,
-    )
+    joint = from_socket(frame, centre)
+    return [
+        tube("arm", points, radii, material),
+        ellipsoid("top of the arm", points[0], (radii[0] + 0.5,) * 3, material),
+        ellipsoid("shoulder", joint, (radius * frame.bone + more,) * 3, material),
+    ]
 
 
 def breast(cage: Cage, layer: int) -> Solid:
@@ -116,10 +110,9 @@ def definitions(cage: Cage, sex: str) -> dict[str, Solid]:
     f = cage.frame
     found: dict[str, Solid] = {}
     for layer, material in enumerate(LAYERS):
-        arm = union(_arm(f, "arm", material, layer), _shoulder(f, "shoulder", material, layer))
         over = (0.0, 0.5 * f.sizes.fat_mm, 0.5 * f.sizes.fat_mm + SKIN_MM)[layer]
         parts: list[Solid] = [
-            arm,
+            *_arm(f, material, layer),
             blade_muscles(f, "blade", material, over),
             clavicle_muscles(f, "clavicle", material, over),
         ]
@@ -135,7 +128,8 @@ def layers(cage: Cage, sex: str) -> list[Solid]:
     """Return skin, fat, gland and muscle, outside in, from the definitions."""
     result: list[Solid] = []
     for word in ("skin", "fat", "gland", "muscle"):
-        sides = [on_side(word, side, f"{word} of a side", right_shoulder(cage)) for side in SIDES]
+        part, turn = Instance(type="instance", of=f"{word} of a side"), shoulder_turn(cage)
+        sides = [on_side(part, side, turn, f"{side} {word}") for side in SIDES]
         if word in LAYERS:
             trunk = _trunk(cage.frame, f"{word} of the trunk", word, LAYERS.index(word))
             result.append(union(trunk, kept(cage.frame, union(*sides), f"arms' {word}")))

@@ -6,7 +6,6 @@ import numpy as np
 
 from phantom.document import (
     Cut,
-    Instance,
     Intersection,
     ReferenceMaterial,
     Replace,
@@ -18,6 +17,7 @@ from phantoms.chest import abnormalities as known
 from phantoms.chest import ribs, spine
 from phantoms.chest.cage import Cage, FloatArray
 from phantoms.chest.changes import Changes, as_point
+from phantoms.chest.sides import on_side, point_on_side
 from phantoms.parts import union
 
 
@@ -63,35 +63,32 @@ def fracture(cage: Cage, result: Changes, index: int, one: known.RibFracture, na
                 translate=as_point(moved),
             )
         )
-    matrix = cage.matrix(one.side, one.rib)
     label = f"{one.side} rib {one.rib}"
-    result.ribs[one.side, one.rib] = Transformed(
-        type="transformed", name=label, solid=union(*fragments), matrix=matrix
-    )
+    turn = cage.turn(one.rib)
+    result.ribs[one.side, one.rib] = on_side(union(*fragments), one.side, turn, label)
     leaves = [
         f"{label}/{w} fragment/{part}"
         for w in ("back", "front")
         for part in ("cortex", "spongiosa")
     ]
     result.found(
-        one, name, leaves, cage.on_side(place, one.side, one.rib), max(one.gap_mm, one.step_mm)
+        one,
+        name,
+        leaves,
+        point_on_side(place, one.side, cage.turn(one.rib)),
+        max(one.gap_mm, one.step_mm),
     )
 
 
 def rib_lesion(cage: Cage, result: Changes, one: known.RibLesion, name: str) -> None:
     """Add a ball that is kept within a rib."""
     place, _, _ = _in_rib(cage, one)
-    at = cage.on_side(place, one.side, one.rib)
+    at = point_on_side(place, one.side, cage.turn(one.rib))
     ball = Sphere(
         type="sphere", name=name, material=_lesion(result, one.kind), center=as_point(at),
         radius=one.length_mm / 2,
     )  # fmt: skip
-    bound = Transformed(
-        type="transformed",
-        name=f"bounds of {name}",
-        solid=Instance(type="instance", of=f"rib {one.rib}"),
-        matrix=cage.matrix(one.side, one.rib),
-    )
+    bound = ribs.in_place(cage, one.side, one.rib, f"bounds of {name}")
     result.at_last.append(Intersection(type="intersection", solids=(ball, bound)))
     result.found(one, name, [name], at, one.length_mm)
 

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.document import Point
+from phantom.document import Point, Rotation
 from phantoms.chest.frame import Frame
-from phantoms.chest.sides import Rows, Sides
+from phantoms.chest.sides import Sides
 from phantoms.chest.spine import spine_y
 
 if TYPE_CHECKING:
@@ -114,21 +114,9 @@ class Cage:
     frame: Frame
     sides: Sides
 
-    def matrix(self, side: str, number: int) -> Rows | None:
-        """Return the rows of what moves a left rib to its own side; None for the left."""
-        return None if side == "left" else self.right_rib(number)
-
-    def right_rib(self, number: int) -> Rows:
-        """Return the rows of what moves a left rib to the right."""
+    def turn(self, number: int) -> Rotation:
+        """Return what turns the mirror image of a left rib into the right one."""
         return self.sides.rib(number, self._rib_head(number))
-
-    def on_side(self, point: FloatArray, side: str, number: int) -> FloatArray:
-        """Return where a point of a left rib is on a side."""
-        rows = self.matrix(side, number)
-        if rows is None:
-            return point
-        moved: FloatArray = np.array(rows) @ [*point, 1.0]
-        return moved
 
     @cached_property
     def outline(self) -> CubicSpline:

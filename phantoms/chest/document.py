@@ -10,8 +10,7 @@ from phantoms.chest import body, fissures, girdle, lungs, mediastinum, ribs, spi
 from phantoms.chest.cage import Cage
 from phantoms.chest.frame import Frame
 from phantoms.chest.parameters import MODEL_HEIGHT_CM, Parameters, sizes
-from phantoms.chest.ribs import SIDES
-from phantoms.chest.sides import Sides
+from phantoms.chest.sides import SIDES, Sides
 from phantoms.chest.sources import SOURCES
 from phantoms.chest.wrong import SITES, Fits, changes
 from phantoms.parts import layered, named, union
@@ -67,13 +66,11 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
     """
     frame = frame_of(parameters)
     cage = Cage(frame, Sides.drawn(parameters.asymmetry, parameters.asymmetry_seed))
-    right = girdle.right_shoulder(cage)
     organs = _organs(cage)
     lung_definitions: dict[str, Solid] = {f"{side} lung": lungs.lung(cage, side) for side in SIDES}
     wrong = changes(cage, abnormalities, lambda: _in_lungs(organs, lung_definitions))
     both = tuple(Instance(type="instance", of=name) for name in lung_definitions)
     trees = union(*(vessels.tree(cage, side, parameters.vessel_seed) for side in SIDES))
-    humeri = union(*(ribs.on_side("humerus", side, "humerus", right) for side in SIDES))
     parts: list[Solid] = [
         *body.layers(cage, parameters.sex),
         union(*both),
@@ -85,14 +82,8 @@ def build(parameters: Parameters, abnormalities: Sequence[Abnormality] = ()) -> 
         named("sternum", ribs.breastbone(cage)),
         union(*(spine.placed(frame, name) for name in spine.LEVELS)),
         ribs.ribs(cage, wrong.ribs),
-        union(
-            *(
-                ribs.on_side(name, side, name, right)
-                for name in ("clavicle", "scapula")
-                for side in SIDES
-            )
-        ),
-        girdle.kept(frame, humeri, "humeri"),
+        union(*(girdle.bone(cage, name) for name in ("clavicle", "scapula"))),
+        girdle.kept(frame, girdle.bone(cage, "humerus"), "humeri"),
         *wrong.at_last,
     ]
     return Document(

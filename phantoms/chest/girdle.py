@@ -13,9 +13,11 @@ import numpy as np
 from phantom.document import (
     Box,
     GeneralizedCylinder,
+    Instance,
     Intersection,
     LineAxis,
     Point,
+    Rotation,
     Solid,
     SplineContour,
     Transformed,
@@ -25,7 +27,7 @@ from phantoms.chest.arms import CUT_X_MM, TOP_Z_MM
 from phantoms.chest.cage import Cage, FloatArray
 from phantoms.chest.frame import Frame
 from phantoms.chest.shapes import cone, tube
-from phantoms.chest.sides import Rows
+from phantoms.chest.sides import SIDES, on_side
 from phantoms.parts import Station, ellipsoid, layered, swept, union, within
 
 # The blade, in its own plane: sideways from the medial border, and height over the spine's root.
@@ -76,9 +78,10 @@ def clavicle_muscles(frame: Frame, name: str, material: str, more_mm: float) -> 
     """Return the muscles about the outer half of the clavicle, so much thicker."""
     stations = _clavicle_stations(frame)
     radii = (10.0 * frame.bone + more_mm, 13.0 * frame.bone + more_mm)
-    end = stations[-2].at
+    start, end = stations[4].at, stations[-2].at
     return union(
-        cone(name, stations[4].at, end, radii, material),
+        cone(name, start, end, radii, material),
+        ellipsoid(f"start of the {name}", start, (radii[0] + 0.5,) * 3, material),
         ellipsoid(f"end of the {name}", end, (radii[1] + 0.5,) * 3, material),
     )
 
@@ -193,9 +196,15 @@ def blade_muscles(frame: Frame, name: str, material: str, more_mm: float) -> Sol
     )
 
 
-def right_shoulder(cage: Cage) -> Rows:
-    """Return the rows of what moves the left shoulder to the right."""
+def shoulder_turn(cage: Cage) -> Rotation:
+    """Return what turns the mirror image of the left shoulder into the right one."""
     return cage.sides.shoulder(joint(cage.frame))
+
+
+def bone(cage: Cage, name: str) -> Solid:
+    """Return a bone of the shoulders, from the definitions, on both sides."""
+    part, turn = Instance(type="instance", of=name), shoulder_turn(cage)
+    return union(*(on_side(part, side, turn, f"{side} {name}") for side in SIDES))
 
 
 def kept(frame: Frame, arms: Solid, of: str) -> Solid:

@@ -24,8 +24,8 @@ from phantom.document import (
     UpFrame,
 )
 from phantoms.chest.cage import Cage, FloatArray, RibLine
-from phantoms.chest.shapes import MIRROR, chain
-from phantoms.chest.sides import Rows
+from phantoms.chest.shapes import chain
+from phantoms.chest.sides import SIDES, on_side
 from phantoms.parts import Station, chord_lengths, knots, layered, swept, union, within
 
 # Along a rib: height and thickness of its section over those at its middle, and its cortex.
@@ -43,7 +43,6 @@ _SIZE: Final = {
     5: (0.98, 1.0), 6: (1.0, 1.0), 7: (1.03, 1.02), 8: (1.0, 1.0),
     9: (0.96, 0.96), 10: (0.9, 0.92), 11: (0.8, 0.86), 12: (0.68, 0.78),
 }  # fmt: skip
-SIDES: Final = ("right", "left")
 
 
 def rib(cage: Cage, number: int) -> Solid:
@@ -122,17 +121,6 @@ def _oval(
     )
 
 
-def on_side(name: str, side: str, of: str, right: Rows = MIRROR) -> Transformed:
-    """Return a solid of the definitions, drawn on the left, on its own or the other side."""
-    matrix = right if side == "right" else None
-    return Transformed(
-        type="transformed",
-        name=f"{side} {name}",
-        solid=Instance(type="instance", of=of),
-        matrix=matrix,
-    )
-
-
 def definitions(cage: Cage) -> dict[str, Solid]:
     """Return the twelve left ribs and the cartilages of ten by name."""
     found = {f"rib {number}": rib(cage, number) for number in range(1, 13)}
@@ -142,11 +130,7 @@ def definitions(cage: Cage) -> dict[str, Solid]:
 def cartilages(cage: Cage, side: str) -> Transformed:
     """Return the cartilages of a side, each moved as its rib is."""
     parts = (
-        Transformed(
-            type="transformed",
-            solid=Instance(type="instance", of=f"cartilage {number}"),
-            matrix=cage.matrix(side, number),
-        )
+        on_side(Instance(type="instance", of=f"cartilage {number}"), side, cage.turn(number))
         for number in range(1, 11)
     )
     return Transformed(type="transformed", name=f"{side} side", solid=union(*parts))
@@ -156,12 +140,17 @@ def ribs(cage: Cage, changed: Mapping[tuple[str, int], Solid]) -> Solid:
     """Return all ribs; ``changed`` ones in place of the usual."""
     return union(
         *(
-            changed.get((side, number))
-            or on_side(f"rib {number}", side, f"rib {number}", cage.right_rib(number))
+            changed.get((side, number)) or in_place(cage, side, number)
             for number in range(1, 13)
             for side in SIDES
         )
     )
+
+
+def in_place(cage: Cage, side: str, number: int, name: str | None = None) -> Transformed:
+    """Return a healthy rib on its side."""
+    rib = Instance(type="instance", of=f"rib {number}")
+    return on_side(rib, side, cage.turn(number), name or f"{side} rib {number}")
 
 
 # Drawn heights of the sides of the breastbone where cartilages meet it, and its half-widths.

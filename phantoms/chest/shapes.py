@@ -37,7 +37,6 @@ Row = tuple[float, float, float, float, float]
 Shape = SplineContour | SuperellipseContour | EllipseContour | CircleContour
 OVAL: Final = EllipseContour(type="ellipse", semi_axes=(1.0, 1.0))
 _UP: Final = UpFrame(up=(1.0, 0.0, 0.0))
-MIRROR: Final = ((-1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
 
 
 def rounded(exponent: float) -> SuperellipseContour:

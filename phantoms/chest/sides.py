@@ -12,10 +12,13 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from phantom.document import Point
+from phantom.document import Point, Rotation, Solid, Transformed
 
-Rows = tuple[tuple[float, float, float, float], ...]
+FloatArray = NDArray[np.float64]
+SIDES: Final = ("right", "left")
+_MIRROR: Final = ((-1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
 _MOST: Final = 2.0
 """Standard deviations at which a draw is cut."""
 
@@ -43,26 +46,30 @@ class Sides:
         ribs = tuple(share * (0.2 * all_ribs + 0.12 * own) for own in each)
         return cls(ribs, share * (0.9 + 0.5 * shoulder))
 
-    def rib(self, number: int, head: Point) -> Rows:
-        """Return the rows of the map from a left rib to the right one."""
-        _, y, z = head
-        turn = math.radians(self.ribs_deg[number - 1])
-        c, s = math.cos(turn), math.sin(turn)
-        # About the axis x through the head, whose front lies at lower y.
-        return (
-            (-1.0, 0.0, 0.0, 0.0),
-            (0.0, c, s, y - c * y - s * z),
-            (0.0, -s, c, z + s * y - c * z),
-        )
+    def rib(self, number: int, head: Point) -> Rotation:
+        """Return what turns the mirror image of a left rib into the right one."""
+        turn = -self.ribs_deg[number - 1]
+        return Rotation(axis=(1.0, 0.0, 0.0), angle_deg=turn, about=(0.0, head[1], head[2]))
 
-    def shoulder(self, joint: Point) -> Rows:
-        """Return the rows of the map from the left shoulder to the right one."""
-        x, _, z = joint
-        turn = math.radians(self.shoulder_deg)
-        c, s = math.cos(turn), math.sin(turn)
-        # Mirrored, then turned about the axis y through the right joint, at -x.
-        return (
-            (-c, 0.0, -s, c * x + s * z - x),
-            (0.0, 1.0, 0.0, 0.0),
-            (-s, 0.0, c, s * x - c * z + z),
-        )
+    def shoulder(self, joint: Point) -> Rotation:
+        """Return what turns the mirror image of the left shoulder into the right one."""
+        x, y, z = joint
+        return Rotation(axis=(0.0, 1.0, 0.0), angle_deg=-self.shoulder_deg, about=(-x, y, z))
+
+
+def on_side(solid: Solid, side: str, turn: Rotation, name: str | None = None) -> Transformed:
+    """Return a solid that is drawn on the left on its own or the other side."""
+    if side == "left":
+        return Transformed(type="transformed", name=name, solid=solid)
+    image = Transformed(type="transformed", solid=solid, matrix=_MIRROR)
+    return Transformed(type="transformed", name=name, solid=image, rotate=turn)
+
+
+def point_on_side(point: FloatArray, side: str, turn: Rotation) -> FloatArray:
+    """Return where a point of the left is on a side, the turn about an axis along x."""
+    if side == "left":
+        return point
+    c, s = math.cos(math.radians(turn.angle_deg)), math.sin(math.radians(turn.angle_deg))
+    _, y0, z0 = turn.about
+    y, z = point[1] - y0, point[2] - z0
+    return np.array([-point[0], y0 + c * y - s * z, z0 + s * y + c * z])
