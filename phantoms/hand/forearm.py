@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from phantom.document import Difference, Solid
+from phantom.document import Cut, Difference, Point, Solid
 from phantoms.hand.frames import Frame
 from phantoms.hand.rows import Row, plus, times, upright
 from phantoms.hand.tubular import CORTEX, MARROW, SPONGIOSA
-from phantoms.parts import Station, ellipsoid, layered, named, swept, union, within
+from phantoms.parts import ellipsoid, layered, named, swept, union, within
 
 END_Z_MM: Final = -130.0
 """Where the forearm is cut off: outside the field of the usual techniques."""
@@ -33,8 +33,8 @@ _RADIUS: Final[tuple[Row, ...]] = (
     (-21.8, 22.4, 25.4, -1.4, 2.0),
 )
 _RADIUS_WALL: Final = (2.6, 2.4, 1.7, 0.9, 0.6, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5)
-_RADIUS_CANAL: Final = (0.97, 0.93, 0.66, 0.06)
-_CARPAL_HOLLOW: Final = ((-1.2, -2.5, -9.9), (27.8, 20.0, 24.5))
+_RADIUS_CANAL: Final = ((10.4, 0.3, -95.0), (4.7, 4.2, 46.0))
+_CARPAL_HOLLOW: Final = ((-1.2, -3.4, -10.4), (27.8, 20.5, 24.5))
 """What scaphoid, lunate and the discs beside them move in."""
 _NOTCH: Final = ((-17.5, 0.2, -38.8), (10.2, 10.2, 10.2))
 _LISTER: Final = ((9.0, 9.8, -37.3), (2.6, 1.7, 6.0))
@@ -49,7 +49,7 @@ _ULNA: Final[tuple[Row, ...]] = (
     (-33.8, -21.4, -12.8, -3.8, 4.0),
 )
 _ULNA_WALL: Final = (2.4, 2.2, 1.8, 0.9, 0.6, 0.5, 0.5, 0.5)
-_ULNA_CANAL: Final = (0.97, 0.93, 0.7, 0.06)
+_ULNA_CANAL: Final = ((-19.0, 0.1, -92.0), (2.9, 2.75, 44.0))
 _STYLOID: Final = ((-23.3, 2.2, -35.6), (2.4, 2.7, 6.2))
 _PLATE_MM: Final = 0.6
 # The thumb's sesamoids, in the frame of its metacarpal: x, y, and z back from the head's end.
@@ -61,21 +61,21 @@ _SESAMOIDS: Final = {
 
 def forearm(scale: float) -> list[Solid]:
     """Return radius and ulna in the hand's frame."""
-    cortex, spongiosa, marrow = _bone(_RADIUS, _RADIUS_WALL, _RADIUS_CANAL, scale)
+    cortex, spongiosa = _bone(_RADIUS, _RADIUS_WALL, scale)
     at, size = _LISTER
     lister = ellipsoid("tubercle", times(at, scale), times(size, scale), CORTEX)
     radius = layered(
         Difference(type="difference", solids=(union(cortex, lister), *_hollows(scale, 0.0))),
         Difference(type="difference", solids=(spongiosa, *_hollows(scale, _PLATE_MM))),
-        marrow,
+        _canal(_RADIUS_CANAL, scale),
     )
-    cortex, spongiosa, marrow = _bone(_ULNA, _ULNA_WALL, _ULNA_CANAL, scale)
+    cortex, spongiosa = _bone(_ULNA, _ULNA_WALL, scale)
     at, size = _STYLOID
     styloid = ellipsoid("styloid", times(at, scale), times(size, scale), CORTEX)
     core = ellipsoid(
         "styloid spongiosa", times(at, scale), plus(times(size, scale), -_PLATE_MM), SPONGIOSA
     )
-    ulna = layered(union(cortex, styloid), union(spongiosa, core), marrow)
+    ulna = layered(union(cortex, styloid), union(spongiosa, core), _canal(_ULNA_CANAL, scale))
     return [named("radius", radius), named("ulna", ulna)]
 
 
@@ -99,25 +99,16 @@ def _hollows(scale: float, wall_mm: float) -> list[Solid]:
     ]
 
 
-def _bone(
-    rows: Sequence[Row], walls: Sequence[float], canal: Sequence[float], scale: float
-) -> tuple[Solid, Solid, Solid]:
-    """Return cortex, spongiosa and marrow; the canal has shares of the first inner sections."""
+def _bone(rows: Sequence[Row], walls: Sequence[float], scale: float) -> tuple[Solid, Solid]:
+    """Return cortex and spongiosa."""
     outer = upright(rows, scale)
     inner = within(outer, [scale * wall for wall in walls], closed=(False, True))
-    marrow = [_shared(station, share) for station, share in zip(inner, canal, strict=False)]
-    return (
-        swept("cortex", outer, CORTEX),
-        swept("spongiosa", inner, SPONGIOSA),
-        swept("marrow", marrow, MARROW),
-    )
+    return swept("cortex", outer, CORTEX), swept("spongiosa", inner, SPONGIOSA)
 
 
-def _shared(station: Station, share: float) -> Station:
-    """Return a section about the same middle, smaller."""
-
-    def reach(side: tuple[float, float]) -> tuple[float, float]:
-        middle, half = (side[0] + side[1]) / 2, share * (side[1] - side[0]) / 2
-        return (middle - half, middle + half)
-
-    return Station(station.at, reach(station.x), reach(station.b))
+def _canal(canal: tuple[Point, Point], scale: float) -> Solid:
+    """Return the marrow canal, an ellipsoid that thins out where the shaft widens."""
+    at, size = canal
+    whole = ellipsoid("marrow", times(at, scale), times(size, scale), MARROW)
+    end = Cut(point=(0.0, 0.0, scale * END_Z_MM), normal=(0.0, 0.0, -1.0))
+    return whole.model_copy(update={"cuts": (end,)})

@@ -39,7 +39,10 @@ SOURCES: Final = (
     "Angwin et al., J. Rheumatol. 28 (2001) 1825: finger joint space, about 1.6 mm; Pfeil et al.,"
     " Acad. Radiol. 14 (2007) 594: 15 % wider in men.",
     "Riggs et al., J. Bone Miner. Res. 19 (2004) 1945: bone density by age.",
-    "Estimates: widths and outlines of all bones, the carpus, the forearm, the soft tissue.",
+    "Hadi, Wijiono, Med. J. Indones. 22 (2013) 173-177: inclination, tilt and height of the radius"
+    " at the wrist.",
+    "Fuentes et al., Cir. Cir. 74 (2006) 457-462: carpal height of men and women.",
+    "Estimates: widths and outlines of all bones, the soft tissue.",
 )
 _TITLE: Final = "Hand and wrist"
 _SUMMARY: Final = (
