@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from phantom.document import Anatomy, Document, Finding, Point, ReferenceMaterial
-from phantoms.knee import trabeculae
+from phantoms.knee import condyles, trabeculae
 from phantoms.knee.abnormalities import Wrong
 from phantoms.knee.parameters import SOURCES, Parameters, resolved, sizes_of
 from phantoms.knee.placing import placed
@@ -44,6 +44,7 @@ def build(parameters: Parameters, abnormalities: Sequence[Wrong] = ()) -> Docume
         title="Knee",
         description=SUMMARY,
         materials={**_materials(sizes), **plan.materials},
+        definitions=condyles.definitions(sizes),
         solid=sided(plan.solid(), full.side),
         landmarks={name: sided_point(point, full.side) for name, point in points.items()},
         anatomy=Anatomy(region="knee", laterality=full.side),

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Final
 
 from phantom.document import Cut, Cylinder, Difference, Point, Rotation, Solid, Transformed
 from phantoms.draws import generator_of
-from phantoms.knee.condyles import WALL_MM, condyles, scales, wheels
+from phantoms.knee.condyles import INSIDE, OUTSIDE, WALL_MM, condyles, scales, wheel
 from phantoms.knee.sizes import Sizes
 from phantoms.knee.trabeculae import Region, plates, solids_of
 from phantoms.parts import Outline, Station, ellipsoid, is_left, layered, swept, union, within
@@ -33,17 +33,15 @@ SHAFT: Final = 26.5
 # In the frame (x, forward): the groove of the trochlea in front (b = 1), the medial side x > 0.
 OUTLINE: Final[Outline] = (
     (0.0, 0.85),
-    (0.52, 1.0),
-    (0.87, 0.68),
-    (0.98, -0.05),
-    (0.86, -0.66),
-    (0.46, -0.95),
+    (0.53, 1.0),
+    (0.88, 0.55),
+    (0.9, -0.42),
+    (0.5, -0.95),
     (0.0, -1.0),
-    (-0.46, -0.95),
-    (-0.86, -0.66),
-    (-0.99, -0.05),
-    (-0.89, 0.68),
-    (-0.53, 0.98),
+    (-0.5, -0.95),
+    (-0.9, -0.42),
+    (-0.89, 0.55),
+    (-0.54, 0.98),
 )
 # z; x of the lateral and the medial border; y of front and back; the wall as a share of that at
 # midshaft.
@@ -70,8 +68,8 @@ _NOTCH_DEPTH: Final = 13.0
 _NOTCH_WIDER_MM: Final = 1.5
 """How far the notch goes into each condyle, which fills it."""
 _CANAL_FROM_Z: Final = 76.0
-_PLATES: Final = (34, 50)
-"""Trabeculae over the notch and in the condyles; where from, what is between, where to."""
+_PLATES: Final = (30, 20)
+"""Trabeculae over the notch and in each condyle; where from, what is between, where to."""
 _PLATES_Z: Final = (2.0, 36.0, 100.0)
 _FAN_Z: Final = 125.0
 """Where their lines would meet."""
@@ -81,13 +79,16 @@ def femur(sizes: Sizes, cuts: Sequence[Cut]) -> Solid:
     """Return the femur, its medial condyle touching z = 0, as far as ``cuts`` keep it."""
     stations, walls = stations_of(sizes)
     inner = within(stations, walls, closed=(False, True))
-    outside, inside = condyles(sizes, cuts)
     denser = solids_of(_trabeculae(sizes, inner), cuts)
+    # A break is through the shaft: a piece has both condyles, whole, or none.
+    below = all(cut.normal[2] > 0.0 for cut in cuts)
+    outside = condyles(sizes, "cortex", OUTSIDE) if below else []
+    inside = condyles(sizes, "spongiosa", INSIDE) if below else []
     bone = swept("cortex", stations, "cortical bone", OUTLINE, cuts=cuts)
     spongy = swept("spongiosa", inner, "spongiosa", OUTLINE, cuts=cuts)
     return layered(
-        union(Difference(type="difference", solids=(bone, _notch(sizes, 0.0))), outside),
-        union(Difference(type="difference", solids=(spongy, _notch(sizes, WALL_MM))), inside),
+        union(Difference(type="difference", solids=(bone, _notch(sizes, 0.0))), *outside),
+        union(Difference(type="difference", solids=(spongy, _notch(sizes, WALL_MM))), *inside),
         *denser,
         *_canal(sizes, cuts),
     )
@@ -104,12 +105,13 @@ def _trabeculae(sizes: Sizes, inner: Sequence[Station]) -> list[FloatArray]:
     def fan(points: FloatArray) -> FloatArray:
         return np.array([0.0, 0.0, _FAN_Z * along]) - points
 
-    shaft = Region(inner, "z", 0.78, (between, high))
-    below = Region(within(wheels(sizes).stations, WALL_MM), "x", 0.72, (low, 2.0 * between))
-    return [
-        *plates(shaft, _PLATES[0], fan, generator, along),
-        *plates(below, _PLATES[1], fan, generator, along),
-    ]
+    found = plates(Region(inner, "z", 0.78, (between, high)), _PLATES[0], fan, generator, along)
+    region = Region(wheel(sizes).inside, "x", 0.72, (low, 2.0 * between))
+    for side in (1.0, -1.0):
+        mirror = np.array([[side], [1.0], [1.0]])
+        drawn = plates(region, _PLATES[1], fan, generator, along)
+        found += [mirror * plate for plate in drawn]
+    return found
 
 
 def lean_x(sizes: Sizes, z: float) -> float:

@@ -51,7 +51,6 @@ def placed(sizes: Sizes) -> Placed:
 
 def _least_gap(sizes: Sizes, points: FloatArray) -> float:
     """Return the least height of the medial condyle over a plateau whose middle is at z = 0."""
-    points = points[points[:, 0] > 0.0]
     return float((points[:, 2] - plateau.surface_z(sizes, points[:, 0], points[:, 1])).min())
 
 

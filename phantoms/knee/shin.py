@@ -77,7 +77,7 @@ _SHAFT: Final = (
 )
 _MIDSHAFT: Final = 2
 _BEYOND_MM: Final = 8.0
-_PLATES: Final = 60
+_PLATES: Final = 56
 """Trabeculae under the plateau."""
 _PLATES_Z: Final = (-66.0, -3.4)
 _PLATES_Y: Final = 19.0

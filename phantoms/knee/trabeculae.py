@@ -72,7 +72,9 @@ class Region(NamedTuple):
 
         far = np.hypot(away(n, n0, n_low, n_high), away(b, b0, b_low, b_high))
         z = points[..., 2]
-        found: NDArray[np.bool_] = (far < self.share) & (here > at[0]) & (here < at[-1])
+        # Plates are no thicker than this; their flats are not asked about.
+        least, most = at[0] + 1.5 * THICK_MM[1], at[-1] - 1.5 * THICK_MM[1]
+        found: NDArray[np.bool_] = (far < self.share) & (here > least) & (here < most)
         found &= (z > self.heights[0]) & (z < self.heights[1])
         return found
 

