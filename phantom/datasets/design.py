@@ -107,8 +107,8 @@ class Outputs(Model):
         told(
             "Visibility",
             "none",
-            "How well what is wrong is seen, beside the same picture without it; abnormal cases"
-            " take some four times as long.",
+            "How well what is wrong is seen, beside the same picture without it; an abnormal image"
+            " takes more than twice as long.",
         ),
     ] = False
     parquet: Annotated[
