@@ -73,10 +73,10 @@ class Parameters(PersonParameters):
             le=0.7,
         ),
     ] = None
-    lobules: Annotated[int, count("Lobules", "Ellipsoids of the gland.", 20, 3000)] = 1400
+    lobules: Annotated[int, count("Lobules", "Ellipsoids of the gland.", 20, 3000)] = 760
     strands: Annotated[
         int, count("Strands", "Ducts, ligaments, septa and vessels, thin and curved.", 0, 600)
-    ] = 320
+    ] = 150
     seed: Annotated[Integer, told("Seed", "none", "Of the gland's pattern.", ge=0, lt=2**64)] = 0
 
 

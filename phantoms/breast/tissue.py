@@ -33,7 +33,7 @@ _PLATE_MM: Final = 4.0
 _RETROMAMMARY: Final = 0.16
 """Share of the depth, before the chest wall, that is fat alone."""
 
-_LOBULES_TO_A_CLEFT: Final = 4
+_LOBULES_TO_A_CLEFT: Final = 6
 
 
 class Body(NamedTuple):
@@ -194,8 +194,8 @@ def lobules(
         step = branch.points[index + 1] - branch.points[index]
         at = branch.points[index] + (place - index) * step
         reach = float(np.linalg.norm(at - body.nipple)) / body.semi_axes[1]
-        center = at + generator.standard_normal(3) * (1.0 + (2.0 + 15.0 * share) * reach)
-        thin, flat, long = np.exp(generator.normal((-0.2, 0.35, 1.25), (0.6, 0.3, 0.35)))
+        center = at + generator.standard_normal(3) * (1.0 + (5.0 + 15.0 * share) * reach)
+        thin, flat, long = np.exp(generator.normal((-0.2, 0.35, 1.3), (0.5, 0.3, 0.35)))
         thin = min(thin, 2.2)
         turns = generator.standard_normal((2, 3))
         along = _unit(_unit(step) + 0.25 * turns[0])
