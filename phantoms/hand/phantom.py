@@ -137,6 +137,20 @@ def _on(finding: Finding, side: Side) -> Finding:
     return finding.model_copy(update={"center": sided_point(finding.center, side)})
 
 
+def _technique(object_detector_mm: float, window: tuple[float, float]) -> Technique:
+    """Return the usual technique: 50 kV, no grid."""
+    return Technique(
+        kvp=50.0,
+        source_detector_mm=1000.0,
+        object_detector_mm=object_detector_mm,
+        window=window,
+        air_kerma_ugy=2.5,
+        field_mm=_FIELD_MM,
+    )
+
+
+_OBLIQUE: Final = _technique(80.0, (1.35, 2.7))
+
 entry = Entry(
     name="hand",
     title=_TITLE,
@@ -144,31 +158,11 @@ entry = Entry(
     parameters=Parameters,
     build=build,
     views=("pa", "rao", "mediolateral"),
-    technique=Technique(
-        kvp=50.0,
-        source_detector_mm=1000.0,
-        object_detector_mm=45.0,
-        window=(1.15, 2.3),
-        air_kerma_ugy=2.5,
-        field_mm=_FIELD_MM,
-    ),
+    technique=_technique(45.0, (1.15, 2.3)),
     techniques={
-        "rao": Technique(
-            kvp=50.0,
-            source_detector_mm=1000.0,
-            object_detector_mm=80.0,
-            window=(1.35, 2.7),
-            air_kerma_ugy=2.5,
-            field_mm=_FIELD_MM,
-        ),
-        "mediolateral": Technique(
-            kvp=50.0,
-            source_detector_mm=1000.0,
-            object_detector_mm=75.0,
-            window=(2.8, 5.6),
-            air_kerma_ugy=2.5,
-            field_mm=_FIELD_MM,
-        ),
+        "rao": _OBLIQUE,
+        "lao": _OBLIQUE,
+        "mediolateral": _technique(75.0, (2.8, 5.6)),
     },
     abnormalities=ABNORMALITIES,
     of_person=of_person,
