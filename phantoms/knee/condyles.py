@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 WIDTH: Final = 87.02
 DEPTH: Final = 61.57
 """Across and from front to back of the tables' condyles, as traced."""
+NOTCH: Final = 22.0
 WALL_MM: Final = 0.9
 
 # (y, z) from the top of the trochlea down its front, under the joint and up behind. From behind the
@@ -89,7 +90,11 @@ def wheel(sizes: Sizes) -> Wheel:
     )
     border = sizes.notch_width / 2.0
     rows = [(border + row[0] * across, row[1:]) for row in _FROM_BORDER]
-    rows += [(row[0] * across, row[1:]) for row in _TO_SIDE]
+    # What is left beside the notch is shared out as in the table, however wide the notch is.
+    start, side = rows[-1][0], _TO_SIDE[-1][0] * across
+    first, last = NOTCH / 2.0 + _FROM_BORDER[-1][0], _TO_SIDE[-1][0]
+    share = (side - start) / (last - first)
+    rows += [(start + (at[0] - first) * share, at[1:]) for at in _TO_SIDE]
     y0, z0 = (at * along for at in _AXIS)
     stations = []
     for x, row in rows:
