@@ -44,7 +44,7 @@ class Sides:
         numbers = np.random.default_rng((seed, 3)).standard_normal(14)
         all_ribs, shoulder, *each = np.clip(numbers, -_MOST, _MOST).tolist()
         ribs = tuple(share * (0.2 * all_ribs + 0.12 * own) for own in each)
-        return cls(ribs, share * (0.9 + 0.5 * shoulder))
+        return cls(ribs, share * (0.8 + 0.3 * shoulder))
 
     def rib(self, number: int, head: Point) -> Rotation:
         """Return what turns the mirror image of a left rib into the right one."""
