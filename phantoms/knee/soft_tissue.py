@@ -16,6 +16,7 @@ from phantoms.parts import Station, ellipsoid, swept
 
 SKIN_MM: Final = 1.8
 _LEAST_FAT_MM: Final = 1.0
+_HOLLOW_MM: Final = 2.0
 
 # z; how far bones reach to the right, left, front and back; how far muscle lies over them there;
 # the fat over that at the sides and behind, and in front, as a share of the person's.
@@ -133,7 +134,8 @@ def _tibiofemoral_cartilage(sizes: Sizes, plateau_z: float) -> Cylinder:
         type="cylinder",
         name="tibiofemoral cartilage",
         material="cartilage",
-        start=(x, y, z),
+        # The facets are hollow; what is not is bone.
+        start=(x - _HOLLOW_MM * nx, y - _HOLLOW_MM * ny, z - _HOLLOW_MM * nz),
         end=(x + thick * nx, y + thick * ny, z + thick * nz),
         semi_axes=(0.465 * sizes.plateau_width, 0.45 * sizes.plateau_depth),
         up=(1.0, 0.0, 0.0),
