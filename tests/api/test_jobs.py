@@ -147,27 +147,52 @@ def test_a_job_without_room_waits_and_goes_on(tmp_path, monkeypatch):
         assert client.get(f"{place}/results").status_code == 200
 
 
-def test_a_job_outlives_a_restart_of_the_service(tmp_path):
+@pytest.fixture
+def held(monkeypatch):
+    """Making that stands still after three images until it is told to stop."""
+    real = api_jobs.make
+
+    def making(*args, progress, cancelled, **given):
+        def told(counts):
+            progress(counts)
+            while counts.done >= 3 and not cancelled():
+                time.sleep(0.01)
+
+        return real(*args, progress=told, cancelled=cancelled, **given)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(api_jobs, "LOOK_S", 0.0)
+        patch.setattr(api_jobs, "make", making)
+        yield patch
+
+
+def _until_three(client, place):
+    until = time.monotonic() + 120
+    while client.get(place).json()["done"] < 3:
+        assert time.monotonic() < until
+        time.sleep(0.05)
+
+
+def test_a_job_outlives_a_restart_of_the_service(tmp_path, held):
     settings = Settings(jobs_folder=tmp_path / "jobs")
-    many = {**DESIGN, "people": 60}
     with TestClient(create_app(settings)) as client:
-        place = _post(client, many).headers["location"]
-        until = time.monotonic() + 60
-        while client.get(place).json()["done"] < 3:
-            assert time.monotonic() < until
-            time.sleep(0.05)
+        place = _post(client, {**DESIGN, "people": 60}).headers["location"]
+        _until_three(client, place)
     with TestClient(create_app(settings)) as client:
+        _until_three(client, place)
         before = client.get(place).json()
         assert before["state"] == "running"
         assert before["done"] >= 3
+    held.undo()
+    with TestClient(create_app(settings)) as client:
         job = _until_over(client, place)
         assert (job["state"], job["done"]) == ("done", 60)
 
 
-def test_a_cancelled_job_stops_and_another_delete_forgets_it(tmp_path):
+def test_a_cancelled_job_stops_and_another_delete_forgets_it(tmp_path, held):
     with TestClient(create_app(Settings(jobs_folder=tmp_path / "jobs"))) as client:
-        place = _post(client, {**DESIGN, "people": 500}).headers["location"]
-        time.sleep(1.0)
+        place = _post(client, {**DESIGN, "people": 60}).headers["location"]
+        _until_three(client, place)
         assert client.delete(place).json()["state"] == "cancelled"
         time.sleep(1.0)
         assert client.get(place).json()["state"] == "cancelled"

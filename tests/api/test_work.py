@@ -63,10 +63,8 @@ def test_a_render_stops_when_its_client_goes_away(monkeypatch):
     async def call():
         await application(scope("/v1/radiographs"), client_that_leaves(body, 0.3), send)
 
-    begun = time.monotonic()
     anyio.run(call)
     assert stopped.is_set()
-    assert time.monotonic() - begun < 5
     assert sent[0]["status"] == 503
 
 

@@ -226,10 +226,10 @@ def test_what_is_no_formula_is_refused_at_its_column(text: str, column: int, sai
     ids=range(16),
 )
 def test_what_is_too_long_or_too_deep_is_refused_at_once(text: str) -> None:
-    start = time.perf_counter()
+    start = time.thread_time()
     with pytest.raises(FormulaError) as refusal:
         parse_formula(text, ("u",))
-    assert time.perf_counter() - start < 0.2
+    assert time.thread_time() - start < 0.2
     assert len(str(refusal.value)) < 200
 
 
