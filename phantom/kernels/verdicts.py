@@ -114,6 +114,14 @@ def in_doubt(S: Floats, n: int) -> bool:
     return doubts > 0
 
 
+@lane
+def spread(slabs: Floats, axis: int, i0: int, i1: int, j0: int, j1: int) -> tuple[float, float]:
+    """Return the ends of what a component of the rays' direction is over a rectangle of pixels."""
+    d, i, j = slabs[axis, 3], slabs[axis, 4], slabs[axis, 5]
+    least = d + min(i * i0, i * i1) + min(j * j0, j * j1)
+    return least, d + max(i * i0, i * i1) + max(j * j0, j * j1)
+
+
 @inner
 def bound_cells(
     hessians: Floats, k: int, slabs: Floats, i0: int, i1: int, j0: int, j1: int, cells: Floats
@@ -123,20 +131,15 @@ def bound_cells(
     The direction is linear in row and column, so each of its components lies between those of the
     corners, and each product of two between the products of their ends.
     """
-    least, most = np.empty(3), np.empty(3)
-    for axis in range(3):
-        d = slabs[axis, 3]
-        i, j = slabs[axis, 4], slabs[axis, 5]
-        least[axis] = d + min(i * i0, i * i1) + min(j * j0, j * j1)
-        most[axis] = d + max(i * i0, i * i1) + max(j * j0, j * j1)
     for row in range(CELLS):
         for column in range(CELLS):
             cells[row, column, 0] = cells[row, column, 1] = 0.0
     for pair in range(6):
         a = pair if pair < 3 else (0 if pair < 5 else 1)
         b = pair if pair < 3 else (1 if pair == 3 else 2)
-        p, q = least[a] * least[b], least[a] * most[b]
-        r, s = most[a] * least[b], most[a] * most[b]
+        least, most = spread(slabs, a, i0, i1, j0, j1)
+        first, last = spread(slabs, b, i0, i1, j0, j1)
+        p, q, r, s = least * first, least * last, most * first, most * last
         low, high = min(min(p, q), min(r, s)), max(max(p, q), max(r, s))
         if a == b:
             low = max(low, 0.0)
