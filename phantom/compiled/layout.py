@@ -28,6 +28,7 @@ class Tables(NamedTuple):
     edges: Floats  # (all cells + tables,) in T
     first_bucket: Ints  # (tables + 1,)
     buckets: Ints  # the cell in which each bucket of the pseudo-angle begins
+    steps: Ints  # (tables,) edges between cells in one bucket at the most
     cells: Floats  # (fixed cells, 6) powers of the local coordinate
     tensors: Floats  # (changing cells, 6, 7) powers of the local coordinate and of tau
 

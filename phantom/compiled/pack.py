@@ -138,22 +138,37 @@ def _form(shape: QuadricShape, center: Floats) -> Floats:
 
 def _tables(fixed: list[StarTable], changing: list[ChangingTable]) -> Tables:
     edges, buckets = [np.zeros(0)], [np.zeros(0)]
-    cell_counts, bucket_counts = [], []
+    cell_counts, bucket_counts, steps = [], [], []
     first = 0
     tables: list[StarTable | ChangingTable] = [*fixed, *changing]
     for table in tables:
-        count = min(_MAX_BUCKETS, 2 ** int(np.ceil(np.log2(2 * len(table.cells)))))
+        count, most = _buckets(table.edges)
         marks = 8.0 * np.arange(count) / count
         buckets.append(first + np.searchsorted(table.edges, marks, side="right") - 1.0)
         edges.append(table.edges)
         cell_counts.append(len(table.cells))
         bucket_counts.append(count)
+        steps.append(most)
         first += len(table.cells)
     return Tables(
         first_cell=_starts(cell_counts),
         edges=np.concatenate(edges),
         first_bucket=_starts(bucket_counts),
         buckets=np.concatenate(buckets).astype(np.int64),
+        steps=np.array(steps, dtype=np.int64),
         cells=np.concatenate([np.zeros((0, 6)), *(table.cells for table in fixed)]),
         tensors=np.concatenate([np.zeros((0, 6, 7)), *(table.cells for table in changing)]),
     )
+
+
+def _buckets(edges: Floats) -> tuple[int, int]:
+    """Return into how many buckets to cut the pseudo-angle, and how many edges one has at most.
+
+    As few as leave one edge to a bucket; edges that crowd at a corner are stepped over.
+    """
+    fewest = 2 ** int(np.ceil(np.log2(2 * (len(edges) - 1))))
+    for count in (fewest, 2 * fewest, 4 * fewest):
+        inside = np.bincount((edges[1:-1] * (count / 8.0)).astype(np.int64), minlength=1)
+        if inside.max() <= 1 or 2 * count > _MAX_BUCKETS:
+            break
+    return count, int(inside.max())

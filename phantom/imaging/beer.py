@@ -21,13 +21,16 @@ FloatArray = NDArray[np.float64]
 BAND_PIXELS: Final = 2**17
 """About how many pixels a thread takes at once."""
 
+CACHE_PIXELS: Final = 2**13
+"""About how many pixels are summed at once; arrays twice as long would be new memory each time."""
+
 PRODUCT_LIMIT: Final = 2**18
 """Most multiplications of one block: larger products would start threads of their own."""
 
 
 def line_integral(lengths: FloatArray, attenuation_per_mm: FloatArray) -> FloatArray:
     """Return Σ_m μ_m L_m of (M, rows, columns) path lengths, as (rows, columns)."""
-    return _by_rows(lengths, lambda band: _sum(band, attenuation_per_mm))
+    return _by_rows(lengths, lambda band, found: _sum(band, attenuation_per_mm, found))
 
 
 def transmission(
@@ -44,39 +47,59 @@ def transmission(
     weights
         (K,) of a spectrum's energies.
     """
-    return _by_rows(lengths, lambda band: band_transmission(band, attenuation_per_mm, weights))
+    return _by_rows(
+        lengths, lambda band, found: band_transmission(band, attenuation_per_mm, weights, found)
+    )
 
 
 def band_transmission(
-    lengths: FloatArray, attenuation_per_mm: FloatArray, weights: FloatArray
-) -> FloatArray:
-    """Do what :func:`transmission` does, on this thread alone: for a band of rows."""
+    lengths: FloatArray, attenuation_per_mm: FloatArray, weights: FloatArray, found: FloatArray
+) -> None:
+    """Do what :func:`transmission` does, on this thread alone: for a band of rows, into ``found``.
+
+    ``found`` is (rows, columns).
+    """
     if attenuation_per_mm.ndim == 1:
-        left = _sum(lengths, attenuation_per_mm)
-        return np.exp(np.negative(left, out=left), out=left)
+        _sum(lengths, attenuation_per_mm, found, _beer)
+        return
     left = np.empty(lengths.shape[1:])
     flat = np.moveaxis(lengths, 0, -1).reshape(-1, len(lengths))
     _Law(attenuation_per_mm, weights[np.newaxis, :]).apply(flat, left.reshape(1, -1))
     # The weights add up to 1 but for rounding; what nothing is in the way of is 1 exactly.
     left /= weights[np.newaxis, :].sum(axis=1)
-    return np.minimum(left, 1.0, out=left)
+    np.minimum(left, 1.0, out=found)
 
 
-def _sum(lengths: FloatArray, attenuation_per_mm: FloatArray) -> FloatArray:
-    total = np.zeros(lengths.shape[1:])
-    product = np.empty_like(total)
-    for length, attenuation in zip(lengths, attenuation_per_mm, strict=True):
-        total += np.multiply(length, attenuation, out=product)
-    return total
+def _beer(total: FloatArray) -> None:
+    np.exp(np.negative(total, out=total), out=total)
 
 
-def _by_rows(lengths: FloatArray, one: Callable[[FloatArray], FloatArray]) -> FloatArray:
+def _sum(
+    lengths: FloatArray,
+    attenuation_per_mm: FloatArray,
+    found: FloatArray,
+    after: Callable[[FloatArray], None] | None = None,
+) -> None:
+    """Write Σ_m μ_m L_m, and what ``after`` makes of it, a few rows at a time: all in the cache."""
+    rows, columns = found.shape
+    step = max(1, CACHE_PIXELS // max(columns, 1))
+    product = np.empty((min(step, rows), columns))
+    for first in range(0, rows, step):
+        total, band = found[first : first + step], lengths[:, first : first + step]
+        np.multiply(band[0], attenuation_per_mm[0], out=total)
+        for length, attenuation in zip(band[1:], attenuation_per_mm[1:], strict=True):
+            total += np.multiply(length, attenuation, out=product[: len(total)])
+        if after is not None:
+            after(total)
+
+
+def _by_rows(lengths: FloatArray, one: Callable[[FloatArray, FloatArray], None]) -> FloatArray:
     """Apply ``one`` to bands of rows, on all threads."""
     _, rows, columns = lengths.shape
     found = np.empty((rows, columns))
 
     def work(start: int, end: int) -> None:
-        found[start:end] = one(lengths[:, start:end])
+        one(lengths[:, start:end], found[start:end])
 
     run_bands(work, cut_bands(rows, max(1, BAND_PIXELS // max(columns, 1))))
     return found

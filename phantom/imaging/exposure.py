@@ -40,7 +40,7 @@ def radiograph(
     workers: int | None = None,
     cancelled: Callable[[], bool] | None = None,
     progress: Callable[[int, int], None] | None = None,
-    keep_path_lengths: bool = True,
+    keep_path_lengths: bool | None = None,
 ) -> Radiograph:
     """X-ray a phantom.
 
@@ -60,9 +60,10 @@ def radiograph(
     progress
         Told now and then how many rows of rays are done, and of how many.
     keep_path_lengths
-        False for a large picture of which only the signal is wanted: path lengths are then held a
-        few rows at a time, and traced once more where they are asked for after all. No number of
-        the result depends on it.
+        Whether to hold path lengths, which take as many images of memory as there are materials.
+        True for one who will ask for them or for line integrals; by default they are kept only
+        where a detector's model needs them all at once. What was not kept is traced once more when
+        it is asked for. No number of the result depends on it.
 
     Raises
     ------
@@ -86,7 +87,7 @@ def radiograph(
 
         def attenuate(first: int, lengths: FloatArray) -> None:
             band = left[first : first + lengths.shape[1]]
-            band[:] = band_transmission(lengths, attenuation, weights)
+            band_transmission(lengths, attenuation, weights, band)
 
         if keep_path_lengths:
             path_lengths = rays.centres(attenuate)
@@ -99,7 +100,7 @@ def radiograph(
         phantom=phantom,
         view=view,
         beam=beam,
-        kept=sealed(path_lengths) if path_lengths is not None and keep_path_lengths else None,
+        kept=None if path_lengths is None or keep_path_lengths is False else sealed(path_lengths),
         left=None if left is None else sealed(left),
         spectrum=spectrum,
         attenuation_per_mm=sealed(attenuation),

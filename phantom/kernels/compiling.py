@@ -23,10 +23,14 @@ from typing import Any, TypeVar, cast
 import numba
 import numpy as np
 
+from phantom.kernels.registers import LoopCompiler, WideCompiler
+
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
 
-_INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
+"""Functions for kernels alone. They make no arrays, so nothing in them counts references: scenes of
+forty arrays are handed on, and counting each time would cost a tenth of an image's time."""
 
 
 @cache
@@ -83,7 +87,7 @@ def kernel(function: Kernel) -> Kernel:
 
 
 def inner(function: Kernel) -> Kernel:
-    """Compile a function that only kernels call: it cannot be called from Python."""
+    """Compile a function that only kernels call, not Python; it must not make arrays."""
     return _compiled(function, **_INNER)
 
 
@@ -93,11 +97,11 @@ def lane(function: Kernel) -> Kernel:
 
 
 def lane_loop(function: Kernel) -> Kernel:
-    """Compile a loop over lanes.
+    """Compile a loop over lanes; no array it is given may be a part of another.
 
     A product and a sum may be rounded once instead of twice; nothing else is loosened.
     """
-    return _compiled(function, fastmath={"contract"}, **_INNER)
+    return _compiled(function, LoopCompiler, fastmath={"contract"}, **_INNER)
 
 
 def whole(value: int) -> int:
@@ -109,13 +113,17 @@ def whole(value: int) -> int:
     return np.int64(value)  # type: ignore[return-value]
 
 
-def _compiled(function: Kernel, **options: Any) -> Kernel:
+def _compiled(
+    function: Kernel, compiler: type[WideCompiler] = WideCompiler, **options: Any
+) -> Kernel:
     settings: Any = numba.config
     before = settings.CACHE_DIR
     # The place is read while the function is decorated; other users of numba keep theirs.
     settings.CACHE_DIR = cache_folder()
     try:
-        compiled = numba.njit(nogil=True, cache=True, error_model="numpy", **options)(function)
+        compiled = numba.njit(
+            nogil=True, cache=True, error_model="numpy", pipeline_class=compiler, **options
+        )(function)
     finally:
         settings.CACHE_DIR = before
     return cast(Kernel, compiled)

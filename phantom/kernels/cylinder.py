@@ -26,7 +26,7 @@ ROW = 8
 """Numbers of a waiting piece: w, G, slope and tau at its two ends."""
 
 
-_EDGE = 1e-9
+EDGE = 1e-9
 """Cells are taken this much wider, in cells: a point on an edge counts for both sides."""
 
 
@@ -231,8 +231,8 @@ def polish(
 def cells_between(p: float, d: float, start: float, end: float) -> tuple[int, int]:
     """Return the first and the last cell that p + w d runs through for w in [start, end]."""
     a, b = p + start * d, p + end * d
-    first = min(max(int(min(a, b) - _EDGE), 0), CELLS - 1)
-    last = min(max(int(max(a, b) + _EDGE), 0), CELLS - 1)
+    first = min(max(int(min(a, b) - EDGE), 0), CELLS - 1)
+    last = min(max(int(max(a, b) + EDGE), 0), CELLS - 1)
     return first, last
 
 
@@ -243,7 +243,7 @@ def within_row(
     """Return the part of [start, end] for which p + w d is in cell i, a hair wider than it is."""
     a, b = start, end
     if first < last:
-        u, v = (i - _EDGE - p) / d, (i + 1 + _EDGE - p) / d
+        u, v = (i - EDGE - p) / d, (i + 1 + EDGE - p) / d
         if u > v:
             u, v = v, u
         if i > 0 and i < CELLS - 1:

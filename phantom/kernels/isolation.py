@@ -38,15 +38,9 @@ from phantom.kernels.lanes import (
     TA,
     TAU,
     TB,
-    YA,
     YB,
-    YGA,
     YGB,
-    YI,
-    YJ,
-    YSA,
     YSB,
-    YTA,
     YTB,
     A,
     B,
@@ -57,7 +51,16 @@ from phantom.kernels.lanes import (
 )
 from phantom.kernels.roots import polish_lanes
 from phantom.kernels.scratch import Scratch
-from phantom.kernels.verdicts import ROOT, SPLIT, bound_cells, in_doubt, judge, look_at_all
+from phantom.kernels.verdicts import (
+    ROOT,
+    SPLIT,
+    bound_blocks,
+    bound_cells,
+    in_doubt,
+    judge,
+    judge_closer,
+    look_at_corners,
+)
 
 Floats = NDArray[np.float64]
 
@@ -81,28 +84,26 @@ def answer(S: Floats, n: int, g: int, slope: int, tau: int) -> None:
 def ask_between(S: Floats, n: int) -> None:
     """Ask for G where the slope's secant vanishes: near the extreme that is in doubt."""
     for m in range(n):
-        a, b, s0, s1 = S[YA + m], S[YB + m], S[YSA + m], S[YSB + m]
-        opposite = (S[YGA + m] < 0.0) != (S[YGB + m] < 0.0)
+        a, b, s0, s1 = S[A + m], S[YB + m], S[SA + m], S[YSB + m]
+        opposite = (S[GA + m] < 0.0) != (S[YGB + m] < 0.0)
         part = min(max(s0 / (s0 - s1), 0.1), 0.9)
         part = 0.5 if opposite | (s0 == s1) else part
-        S[AT_I + m], S[AT_J + m] = S[YI + m], S[YJ + m]
+        S[AT_I + m], S[AT_J + m] = S[I + m], S[J + m]
         S[AT_W + m] = a + part * (b - a)
-        S[AT_T + m] = S[YTA + m] + part * (S[YTB + m] - S[YTA + m])
+        S[AT_T + m] = S[TA + m] + part * (S[YTB + m] - S[TA + m])
 
 
 @lane_loop
 def halve(S: Floats, n: int) -> None:
-    """Make two intervals of each that was split."""
+    """Give each of n intervals that was split the end between, and add the other half behind."""
     for m in range(n):
-        S[I + m], S[J + m] = S[YI + m], S[YJ + m]
-        S[A + m], S[GA + m], S[SA + m], S[TA + m] = S[YA + m], S[YGA + m], S[YSA + m], S[YTA + m]
-        S[B + m], S[GB + m], S[SB + m], S[TB + m] = S[AT_W + m], S[G + m], S[SLOPE + m], S[TAU + m]
-    for m in range(n):
-        S[I + n + m], S[J + n + m] = S[YI + m], S[YJ + m]
+        S[I + n + m], S[J + n + m] = S[I + m], S[J + m]
         S[A + n + m], S[GA + n + m] = S[AT_W + m], S[G + m]
         S[SA + n + m], S[TA + n + m] = S[SLOPE + m], S[TAU + m]
         S[B + n + m], S[GB + n + m] = S[YB + m], S[YGB + m]
         S[SB + n + m], S[TB + n + m] = S[YSB + m], S[YTB + m]
+    for m in range(n):
+        S[B + m], S[GB + m], S[SB + m], S[TB + m] = S[AT_W + m], S[G + m], S[SLOPE + m], S[TAU + m]
 
 
 @inner
@@ -137,7 +138,7 @@ def isolate(
     )
     table = scene.segment_table[k]
     cornered = scene.cornered[k] != 0
-    bounded = cornered
+    bounded = False
     roots = whole(0)
     if table < 0:
         if filled + 2 * n > len(pixels):
@@ -177,23 +178,17 @@ def isolate(
                     return -1
                 filled = polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)
                 roots = whole(0)
-            if not cornered:
-                judge(T, n, slabs, scene.hulls, k)
-            if not bounded and in_doubt(T, n):
-                bound_cells(scene.hessians, k, slabs, i0, i1, j0, j1, held.cells)
-                bounded = True
-            look_at_all(
-                T,
-                n,
-                slabs,
-                cornered,
-                scene.hessians,
-                scene.kinks,
-                k,
-                held.beam,
-                held.cells,
-                shortest,
-            )
+            if cornered:
+                look_at_corners(T, n, slabs, scene.hessians, scene.kinks, k, held.beam, shortest)
+            else:
+                if not bounded:
+                    judge(T, n, slabs, scene.hulls, k)
+                    if in_doubt(T, n):
+                        bound_cells(scene.hessians, k, slabs, i0, i1, j0, j1, held.cells)
+                        bound_blocks(held.cells, held.blocks)
+                        bounded = True
+                if bounded:
+                    judge_closer(T, n, slabs, held.blocks, shortest)
             halves = whole(0)
             for m in range(n):
                 code = T[LOW + m]
@@ -203,9 +198,9 @@ def isolate(
                     S[RB + roots], S[RW + roots], S[RP + roots] = T[B + m], T[GB + m], T[SB + m]
                     roots += 1
                 elif code == SPLIT:
-                    T[YI + halves], T[YJ + halves] = T[I + m], T[J + m]
-                    T[YA + halves], T[YGA + halves] = T[A + m], T[GA + m]
-                    T[YSA + halves], T[YTA + halves] = T[SA + m], T[TA + m]
+                    T[I + halves], T[J + halves] = T[I + m], T[J + m]
+                    T[A + halves], T[GA + halves] = T[A + m], T[GA + m]
+                    T[SA + halves], T[TA + halves] = T[SA + m], T[TA + m]
                     T[YB + halves], T[YGB + halves] = T[B + m], T[GB + m]
                     T[YSB + halves], T[YTB + halves] = T[SB + m], T[TB + m]
                     halves += 1

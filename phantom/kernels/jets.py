@@ -15,6 +15,8 @@ from phantom.kernels.compiling import lane
 Floats = NDArray[np.float64]
 Row = tuple[float, float, float, float, float, float, float]
 Plane = tuple[Row, Row, Row, Row]
+Fan = tuple[Row, Row, Row, Row]
+"""Of ``a.x - b``: what all rays of a view share, what the first has of its own, and its steps."""
 
 
 @lane
@@ -43,46 +45,83 @@ def plane(polynomials: Floats, k: int, j: int) -> Plane:
 
 
 @lane
-def at_point(p: Plane, x: float, y: float, z: float) -> Row:
-    """Return ``a(tau).x - b(tau)`` as a polynomial of tau."""
+def from_one_point(rays: Floats) -> float:
+    """Return 1 where all rays share their origin, 0 where they share their direction instead."""
+    own = abs(rays[1, 0]) + abs(rays[1, 1]) + abs(rays[1, 2])
+    own += abs(rays[2, 0]) + abs(rays[2, 1]) + abs(rays[2, 2])
+    return 1.0 if own == 0.0 else 0.0
+
+
+@lane
+def along(p: Plane, x: float, y: float, z: float, about: float) -> Row:
+    """Return ``a(tau).x - b(tau)`` as a polynomial of tau; of a way, ``about`` = 0, without b."""
     a, b, c, d = p
     return (
-        a[0] * x + b[0] * y + c[0] * z - d[0],
-        a[1] * x + b[1] * y + c[1] * z - d[1],
-        a[2] * x + b[2] * y + c[2] * z - d[2],
-        a[3] * x + b[3] * y + c[3] * z - d[3],
-        a[4] * x + b[4] * y + c[4] * z - d[4],
-        a[5] * x + b[5] * y + c[5] * z - d[5],
-        a[6] * x + b[6] * y + c[6] * z - d[6],
+        a[0] * x + b[0] * y + c[0] * z - about * d[0],
+        a[1] * x + b[1] * y + c[1] * z - about * d[1],
+        a[2] * x + b[2] * y + c[2] * z - about * d[2],
+        a[3] * x + b[3] * y + c[3] * z - about * d[3],
+        a[4] * x + b[4] * y + c[4] * z - about * d[4],
+        a[5] * x + b[5] * y + c[5] * z - about * d[5],
+        a[6] * x + b[6] * y + c[6] * z - about * d[6],
     )
 
 
 @lane
-def along(p: Plane, x: float, y: float, z: float) -> Row:
-    """Return ``a(tau).d`` as a polynomial of tau."""
-    a, b, c, _ = p
+def fan(p: Plane, rays: Floats, ox: float, oy: float, oz: float, point: float) -> Fan:
+    """Write ``a.(o + w d) - b`` of every ray as C p(w) + (U + i V + j W) q(w).
+
+    Rays from one point share what belongs to their origin, C, with p = 1 and q = w; parallel ones
+    what belongs to their direction, with p = w and q = 1.
+    """
+    bundle = 1.0 - point
+    dx, dy, dz = rays[3, 0], rays[3, 1], rays[3, 2]
     return (
-        a[0] * x + b[0] * y + c[0] * z,
-        a[1] * x + b[1] * y + c[1] * z,
-        a[2] * x + b[2] * y + c[2] * z,
-        a[3] * x + b[3] * y + c[3] * z,
-        a[4] * x + b[4] * y + c[4] * z,
-        a[5] * x + b[5] * y + c[5] * z,
-        a[6] * x + b[6] * y + c[6] * z,
+        along(
+            p,
+            point * ox + bundle * dx,
+            point * oy + bundle * dy,
+            point * oz + bundle * dz,
+            point,
+        ),
+        along(
+            p,
+            point * dx + bundle * ox,
+            point * dy + bundle * oy,
+            point * dz + bundle * oz,
+            bundle,
+        ),
+        along(p, rays[1, 0] + rays[4, 0], rays[1, 1] + rays[4, 1], rays[1, 2] + rays[4, 2], 0.0),
+        along(p, rays[2, 0] + rays[5, 0], rays[2, 1] + rays[5, 1], rays[2, 2] + rays[5, 2], 0.0),
     )
 
 
 @lane
-def mixed(c: Row, d: Row, w: float) -> Row:
-    """Return c + w d."""
+def own(f: Fan, i: float, j: float) -> Row:
+    """Return what the ray of row i and column j has of its own."""
+    _, u, v, w = f
     return (
-        c[0] + w * d[0],
-        c[1] + w * d[1],
-        c[2] + w * d[2],
-        c[3] + w * d[3],
-        c[4] + w * d[4],
-        c[5] + w * d[5],
-        c[6] + w * d[6],
+        u[0] + i * v[0] + j * w[0],
+        u[1] + i * v[1] + j * w[1],
+        u[2] + i * v[2] + j * w[2],
+        u[3] + i * v[3] + j * w[3],
+        u[4] + i * v[4] + j * w[4],
+        u[5] + i * v[5] + j * w[5],
+        u[6] + i * v[6] + j * w[6],
+    )
+
+
+@lane
+def mixed(c: Row, d: Row, p: float, q: float) -> Row:
+    """Return p c + q d."""
+    return (
+        p * c[0] + q * d[0],
+        p * c[1] + q * d[1],
+        p * c[2] + q * d[2],
+        p * c[3] + q * d[3],
+        p * c[4] + q * d[4],
+        p * c[5] + q * d[5],
+        p * c[6] + q * d[6],
     )
 
 

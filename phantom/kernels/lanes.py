@@ -11,7 +11,16 @@ from numpy.typing import NDArray
 
 from phantom.compiled.layout import Tables
 from phantom.kernels.compiling import lane, lane_loop
-from phantom.kernels.jets import along, at_point, nearer_tau, plane, value, value_and_slope
+from phantom.kernels.jets import (
+    fan,
+    from_one_point,
+    mixed,
+    nearer_tau,
+    own,
+    plane,
+    value,
+    value_and_slope,
+)
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -46,8 +55,11 @@ ROWS = 53
 
 @lane
 def away_from_zero(d: float) -> float:
-    """Return d, or something tiny: a slab that a ray runs along is left far away, or never."""
-    return d if d != 0.0 else 1e-280
+    """Return d, or something tiny: a slab that a ray runs along is left far away, or never.
+
+    The product of three is no less than the smallest number there is.
+    """
+    return d if abs(d) > 1e-90 else 1e-90
 
 
 @lane_loop
@@ -59,31 +71,25 @@ def evaluate_circle(
     ``rays`` is (6, 3): origin, its steps to the next row and column, direction, its steps; the
     origin is taken from (ox, oy, oz), about the segment.
     """
-    px, py = plane(polynomials, k, 4), plane(polynomials, k, 8)
-    pf = plane(polynomials, k, 0)
-    oxi, oyi, ozi = rays[1, 0], rays[1, 1], rays[1, 2]
-    oxj, oyj, ozj = rays[2, 0], rays[2, 1], rays[2, 2]
-    dx0, dy0, dz0 = rays[3, 0], rays[3, 1], rays[3, 2]
-    dxi, dyi, dzi = rays[4, 0], rays[4, 1], rays[4, 2]
-    dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
+    point = from_one_point(rays)
+    bundle = 1.0 - point
+    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
+    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
+    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
     for m in range(n):
         i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
-        dx = dx0 + i * dxi + j * dxj
-        dy = dy0 + i * dyi + j * dyj
-        dz = dz0 + i * dzi + j * dzj
-        x = ox + i * oxi + j * oxj + w * dx
-        y = oy + i * oyi + j * oyj + w * dy
-        z = oz + i * ozi + j * ozj + w * dz
-        f = at_point(pf, x, y, z)
+        p, q = point + bundle * w, point * w + bundle
+        r = own(F, i, j)
+        f = mixed(F[0], r, p, q)
         t = nearer_tau(f, nearer_tau(f, t))
         fv, ft = value_and_slope(f, t)
         over = 1.0 / ft
         rest = fv * over
-        turn = value(along(pf, dx, dy, dz), t) * over
-        xv, xt = value_and_slope(at_point(px, x, y, z), t)
-        yv, yt = value_and_slope(at_point(py, x, y, z), t)
-        xw = value(along(px, dx, dy, dz), t)
-        yw = value(along(py, dx, dy, dz), t)
+        turn = (bundle * value(F[0], t) + point * value(r, t)) * over
+        (c, ct), (u, ut) = value_and_slope(X[0], t), value_and_slope(own(X, i, j), t)
+        xv, xt, xw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
+        (c, ct), (u, ut) = value_and_slope(Y[0], t), value_and_slope(own(Y, i, j), t)
+        yv, yt, yw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
         gt = 2.0 * (xv * xt + yv * yt)
         S[G + m] = xv * xv + yv * yv - 1.0 - gt * rest
         S[SLOPE + m] = 2.0 * (xv * xw + yv * yw) - gt * turn
@@ -95,30 +101,24 @@ def evaluate_jets(
     S: Floats, n: int, rays: Floats, ox: float, oy: float, oz: float, polynomials: Floats, k: int
 ) -> None:
     """Write F and phi with their slopes along tau and w; ``TAU`` is where they are taken."""
-    px, py = plane(polynomials, k, 4), plane(polynomials, k, 8)
-    pf = plane(polynomials, k, 0)
-    oxi, oyi, ozi = rays[1, 0], rays[1, 1], rays[1, 2]
-    oxj, oyj, ozj = rays[2, 0], rays[2, 1], rays[2, 2]
-    dx0, dy0, dz0 = rays[3, 0], rays[3, 1], rays[3, 2]
-    dxi, dyi, dzi = rays[4, 0], rays[4, 1], rays[4, 2]
-    dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
+    point = from_one_point(rays)
+    bundle = 1.0 - point
+    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
+    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
+    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
     for m in range(n):
         i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
-        dx = dx0 + i * dxi + j * dxj
-        dy = dy0 + i * dyi + j * dyj
-        dz = dz0 + i * dzi + j * dzj
-        x = ox + i * oxi + j * oxj + w * dx
-        y = oy + i * oyi + j * oyj + w * dy
-        z = oz + i * ozi + j * ozj + w * dz
-        f = at_point(pf, x, y, z)
+        p, q = point + bundle * w, point * w + bundle
+        r = own(F, i, j)
+        f = mixed(F[0], r, p, q)
         t = nearer_tau(f, nearer_tau(f, t))
         fv, ft = value_and_slope(f, t)
         S[TAU + m], S[FV + m], S[FT + m] = t, fv, ft
-        S[FW + m] = value(along(pf, dx, dy, dz), t)
-        xv, xt = value_and_slope(at_point(px, x, y, z), t)
-        yv, yt = value_and_slope(at_point(py, x, y, z), t)
-        S[XV + m], S[XT + m], S[XW + m] = xv, xt, value(along(px, dx, dy, dz), t)
-        S[YV + m], S[YT + m], S[YW + m] = yv, yt, value(along(py, dx, dy, dz), t)
+        S[FW + m] = bundle * value(F[0], t) + point * value(r, t)
+        (c, ct), (u, ut) = value_and_slope(X[0], t), value_and_slope(own(X, i, j), t)
+        S[XV + m], S[XT + m], S[XW + m] = p * c + q * u, p * ct + q * ut, bundle * c + point * u
+        (c, ct), (u, ut) = value_and_slope(Y[0], t), value_and_slope(own(Y, i, j), t)
+        S[YV + m], S[YT + m], S[YW + m] = p * c + q * u, p * ct + q * ut, bundle * c + point * u
 
 
 @lane
@@ -131,31 +131,46 @@ def turned_chart(x: float, y: float) -> tuple[bool, float, float, float]:
 
 @lane_loop
 def find_cells(
-    S: Floats, n: int, buckets: Ints, first: int, count: int, edges: Floats, table: int, last: int
+    S: Floats,
+    n: int,
+    buckets: Ints,
+    first: int,
+    count: int,
+    edges: Floats,
+    table: int,
+    last: int,
+    steps: int,
 ) -> None:
-    """Write the cell of the contour's table that each phi lies in, into ``H``."""
-    scale = 0.125 * count
+    """Write the cell of the contour's table that each phi lies in, into ``H``.
+
+    ``HT`` is the pseudo-angle there and ``HX`` the coordinate of its chart. As many ``steps`` are
+    taken from where a bucket begins as there are edges in one at the most.
+    """
+    scale, start, after = 0.125 * count, np.uint64(first), np.uint64(table + 1)
     for m in range(n):
         level, sign, major, minor = turned_chart(S[XV + m], S[YV + m])
         chart = (0.0 if level else 1.0) + (0.0 if sign > 0.0 else 2.0)
-        T = 2.0 * chart + (minor / major if major > 0.0 else 0.0) + 1.0
-        cell = buckets[first + min(int(T * scale), count - 1)]
-        while cell < last and edges[cell + table + 1] <= T:
-            cell += 1
-        S[H + m] = cell
+        t = minor / major if major > 0.0 else 0.0
+        T = 2.0 * chart + t + 1.0
+        bucket = min(max(int(T * scale), 0), count - 1)
+        S[H + m], S[HT + m], S[HX + m] = buckets[np.uint64(bucket) + start], T, t
+    for _ in range(steps):
+        for m in range(n):
+            cell = S[H + m]
+            beyond = (edges[np.uint64(cell) + after] <= S[HT + m]) & (cell < last)
+            S[H + m] = cell + 1.0 if beyond else cell
 
 
 @lane_loop
 def fixed_cells(S: Floats, n: int, edges: Floats, table: int, cells: Floats) -> None:
     """Write h and its gradient from the cells of a contour that stays as it is."""
+    before, after = np.uint64(table), np.uint64(table + 1)
     for m in range(n):
-        level, sign, major, minor = turned_chart(S[XV + m], S[YV + m])
-        chart = (0.0 if level else 1.0) + (0.0 if sign > 0.0 else 2.0)
-        t = minor / major if major > 0.0 else 0.0
-        c = np.uint64(S[H + m])
-        low, high = edges[c + np.uint64(table)], edges[c + np.uint64(table + 1)]
+        level, sign, major, _ = turned_chart(S[XV + m], S[YV + m])
+        c, T, t = np.uint64(S[H + m]), S[HT + m], S[HX + m]
+        low, high = edges[c + before], edges[c + after]
         over = 2.0 / (high - low)
-        z = (2.0 * chart + t + 1.0 - 0.5 * (low + high)) * over
+        z = (T - 0.5 * (low + high)) * over
         g = cells[c, 5]
         slope = g
         g = g * z + cells[c, 4]
@@ -179,15 +194,14 @@ def changing_cells(
     S: Floats, n: int, edges: Floats, table: int, tensors: Floats, skip: int
 ) -> None:
     """Write h, its gradient and its slope along tau from the cells of a contour that changes."""
+    before, after, fixed = np.uint64(table), np.uint64(table + 1), np.uint64(skip)
     for m in range(n):
-        level, sign, major, minor = turned_chart(S[XV + m], S[YV + m])
-        chart = (0.0 if level else 1.0) + (0.0 if sign > 0.0 else 2.0)
-        t, tau = (minor / major if major > 0.0 else 0.0), S[TAU + m]
-        c = int(S[H + m])
-        low, high = edges[c + table], edges[c + table + 1]
+        level, sign, major, _ = turned_chart(S[XV + m], S[YV + m])
+        c, T, t, tau = np.uint64(S[H + m]), S[HT + m], S[HX + m], S[TAU + m]
+        low, high = edges[c + before], edges[c + after]
         over = 2.0 / (high - low)
-        z = (2.0 * chart + t + 1.0 - 0.5 * (low + high)) * over
-        row = c - skip
+        z = (T - 0.5 * (low + high)) * over
+        row = c - fixed
         g = slope = rate = 0.0
         for i in range(5, -1, -1):
             value, first = tensors[row, i, 6], 0.0
@@ -211,7 +225,8 @@ def look_up(S: Floats, n: int, table: int, tables: Tables) -> None:
     first = tables.first_bucket[table]
     count = tables.first_bucket[table + 1] - first
     last = tables.first_cell[table + 1] - 1
-    find_cells(S, n, tables.buckets, first, count, tables.edges, table, last)
+    steps = tables.steps[table]
+    find_cells(S, n, tables.buckets, first, count, tables.edges, table, last, steps)
     fixed = len(tables.cells)
     if tables.first_cell[table] < fixed:
         fixed_cells(S, n, tables.edges, table, tables.cells)
@@ -307,14 +322,17 @@ def collect(
             a = t if (d < 0.0) & (t > a) else a
             b = -1.0 if (d == 0.0) & (f >= 0.0) else b
             # |p + w d| <= h: the middle and half the length of the part inside.
-            over = 1.0 / away_from_zero(d0 + j * d0j)
-            middle, half = -(p0 + j * p0j) * over, abs(h0 * over)
+            s0, s1 = away_from_zero(d0 + j * d0j), away_from_zero(d1 + j * d1j)
+            s2 = away_from_zero(d2 + j * d2j)
+            s01 = s0 * s1
+            over = 1.0 / (s01 * s2)
+            o2, over = s01 * over, s2 * over
+            o0, o1 = s1 * over, s0 * over
+            middle, half = -(p0 + j * p0j) * o0, abs(h0 * o0)
             a, b = max(a, middle - half), min(b, middle + half)
-            over = 1.0 / away_from_zero(d1 + j * d1j)
-            middle, half = -(p1 + j * p1j) * over, abs(h1 * over)
+            middle, half = -(p1 + j * p1j) * o1, abs(h1 * o1)
             a, b = max(a, middle - half), min(b, middle + half)
-            over = 1.0 / away_from_zero(d2 + j * d2j)
-            middle, half = -(p2 + j * p2j) * over, abs(h2 * over)
+            middle, half = -(p2 + j * p2j) * o2, abs(h2 * o2)
             a, b = max(a, middle - half), min(b, middle + half)
             S[LOW + m], S[HIGH + m] = a, b
         for m in range(j1 - j0):

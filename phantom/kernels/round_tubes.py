@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 
 from phantom.kernels.compiling import lane, lane_loop
 from phantom.kernels.jets import (
+    Fan,
     Row,
-    along,
-    at_point,
+    fan,
+    from_one_point,
     mixed,
-    nearer_tau,
+    own,
     plane,
     two_slopes,
     value,
@@ -75,32 +76,33 @@ def probe(
     ``TAU``, ``G`` and ``SLOPE`` are what was found, ``HT`` and ``HY`` the first two derivatives of
     tau along the ray, and ``HX``, ``XV`` and ``YV`` the next three of G, the last one roughly.
     """
-    px, py = plane(polynomials, k, 4), plane(polynomials, k, 8)
-    pf = plane(polynomials, k, 0)
-    oxi, oyi, ozi = rays[1, 0], rays[1, 1], rays[1, 2]
-    oxj, oyj, ozj = rays[2, 0], rays[2, 1], rays[2, 2]
-    dx0, dy0, dz0 = rays[3, 0], rays[3, 1], rays[3, 2]
-    dxi, dyi, dzi = rays[4, 0], rays[4, 1], rays[4, 2]
-    dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
+    point = from_one_point(rays)
+    bundle = 1.0 - point
+    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
+    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
+    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
     for m in range(n):
         i, j, w = S[I + m], S[J + m], S[AT_W + m]
-        dx = dx0 + i * dxi + j * dxj
-        dy = dy0 + i * dyi + j * dyj
-        dz = dz0 + i * dzi + j * dzj
-        x = ox + i * oxi + j * oxj + w * dx
-        y = oy + i * oyi + j * oyj + w * dy
-        z = oz + i * ozi + j * ozj + w * dz
-        f = at_point(pf, x, y, z)
+        p, q = point + bundle * w, point * w + bundle
+        r = own(F, i, j)
+        f = mixed(F[0], r, p, q)
         # F falls from one end of the segment to the other, nearly straight.
         even, odd = f[0] + f[2] + f[4] + f[6], f[1] + f[3] + f[5]
-        t = min(max(-even / odd, -1.0), 1.0)
-        t = nearer_tau(f, nearer_tau(f, t))
+        over = 1.0 / odd
+        t = min(max(-even * over, -1.0), 1.0)
+        for _ in range(2):
+            fv, ft = value_and_slope(f, t)
+            over *= 2.0 - ft * over
+            t = min(max(t - fv * over, -1.0), 1.0)
         fv, ft, ftt = two_slopes(f, t)
-        fw, fwt = value_and_slope(along(pf, dx, dy, dz), t)
-        xv, xt, xtt = two_slopes(at_point(px, x, y, z), t)
-        xw, xwt = value_and_slope(along(px, dx, dy, dz), t)
-        yv, yt, ytt = two_slopes(at_point(py, x, y, z), t)
-        yw, ywt = value_and_slope(along(py, dx, dy, dz), t)
+        (c, ct), (u, ut) = value_and_slope(F[0], t), value_and_slope(r, t)
+        fw, fwt = bundle * c + point * u, bundle * ct + point * ut
+        (c, ct, ctt), (u, ut, utt) = two_slopes(X[0], t), two_slopes(own(X, i, j), t)
+        xv, xt, xtt = p * c + q * u, p * ct + q * ut, p * ctt + q * utt
+        xw, xwt = bundle * c + point * u, bundle * ct + point * ut
+        (c, ct, ctt), (u, ut, utt) = two_slopes(Y[0], t), two_slopes(own(Y, i, j), t)
+        yv, yt, ytt = p * c + q * u, p * ct + q * ut, p * ctt + q * utt
+        yw, ywt = bundle * c + point * u, bundle * ct + point * ut
         over = 1.0 / ft
         rest, turn = fv * over, -fw * over
         turning = -turn * (ftt * turn + 2.0 * fwt) * over
@@ -117,81 +119,95 @@ def probe(
 
 
 @lane
-def predicted(
-    g: float, slope: float, second: float, third: float, fourth: float, side: float
-) -> float:
-    """Return how far off the root of G is on one side, as five terms of its series have it."""
+def both_ways(
+    g: float, slope: float, second: float, third: float, fourth: float
+) -> tuple[float, float]:
+    """Return how far off G's roots before and behind are, as five terms of its series have it.
+
+    The parabola's roots are mended by two steps of Newton's, with the slope at the first.
+    """
     root = math.sqrt(max(slope * slope - 2.0 * g * second, 0.0))
-    way = (side * root - slope) / second
+    over = 1.0 / (root * second)
+    flat, half = over * second, over * root
     a, b, c = 0.5 * second, third / 6.0, fourth / 24.0
-    for _ in range(2):
-        value = (((c * way + b) * way + a) * way + slope) * way + g
-        way -= value / (((4.0 * c * way + 3.0 * b) * way + 2.0 * a) * way + slope)
-    return way
+    before, behind = -(root + slope) * half, (root - slope) * half
+    x = -flat * (3.0 * b + 4.0 * c * before) * before * before
+    step = -flat * (1.0 - x * (1.0 - x))
+    before -= step * (b + c * before) * before * before * before
+    before -= step * ((((c * before + b) * before + a) * before + slope) * before + g)
+    x = flat * (3.0 * b + 4.0 * c * behind) * behind * behind
+    step = flat * (1.0 - x * (1.0 - x))
+    behind -= step * (b + c * behind) * behind * behind * behind
+    behind -= step * ((((c * behind + b) * behind + a) * behind + slope) * behind + g)
+    return before, behind
 
 
 @lane
 def end_of_chord(
-    f0: Row,
-    f1: Row,
-    x0: Row,
-    x1: Row,
-    y0: Row,
-    y1: Row,
+    F: Fan,
+    X: Fan,
+    Y: Fan,
+    fr: Row,
+    xr: Row,
+    yr: Row,
+    point: float,
     guess: float,
     tau: float,
     low: float,
     high: float,
     rising: bool,
     bend: float,
+    turning: float,
     enough: float,
 ) -> tuple[float, bool]:
     """Find the root of G between two w, of which the one it rises toward is the interval's end.
 
-    Returns it, or that end where G is still negative there, and whether it is good enough.
-    ``f0 + w f1`` is F as a polynomial of tau, and so are x and y; ``bend`` is about G''.
+    Returns it, or that end where G is still negative there, and whether it is good enough. ``fr``,
+    ``xr`` and ``yr`` are what the ray has of its own, ``bend`` is about G'' at the guess and
+    ``turning`` about the second derivative of tau. The first step is Chebyshev's, of third order.
     """
+    bundle = 1.0 - point
     end = high if rising else low
     w = min(max(guess, low), high)
     t = min(max(tau, -1.0), 1.0)
-    fv, ft = value_and_slope(mixed(f0, f1, w), t)
-    fw = value(f1, t)
-    xv, xt = value_and_slope(mixed(x0, x1, w), t)
-    yv, yt = value_and_slope(mixed(y0, y1, w), t)
-    xw, yw = value(x1, t), value(y1, t)
-    gt, gw = 2.0 * (xv * xt + yv * yt), 2.0 * (xv * xw + yv * yw)
-    over = 1.0 / ft
-    moved = w - (xv * xv + yv * yv - 1.0 - gt * (fv * over)) / (gw - gt * (fw * over))
-    moved = min(max(moved, low), high)
-    t = min(max(t - (fv + fw * (moved - w)) * over, -1.0), 1.0)
-    w = moved
-    fv, ft = value_and_slope(mixed(f0, f1, w), t)
-    fw = value(f1, t)
-    xv, xt = value_and_slope(mixed(x0, x1, w), t)
-    yv, yt = value_and_slope(mixed(y0, y1, w), t)
-    xw, yw = value(x1, t), value(y1, t)
-    gt, gw = 2.0 * (xv * xt + yv * yt), 2.0 * (xv * xw + yv * yw)
-    over = 1.0 / ft
-    slope = gw - gt * (fw * over)
+    p, q = point + bundle * w, point * w + bundle
+    (c, ct), (u, ut) = value_and_slope(F[0], t), value_and_slope(fr, t)
+    over = 1.0 / (p * ct + q * ut)
+    off, turn = (p * c + q * u) * over, -(bundle * c + point * u) * over
+    turn += off * (bundle * ct + point * ut) * over
+    t = min(max(t - off, -1.0), 1.0)
+    (c, ct), (u, ut) = value_and_slope(X[0], t), value_and_slope(xr, t)
+    xv, xt, xw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
+    (c, ct), (u, ut) = value_and_slope(Y[0], t), value_and_slope(yr, t)
+    yv, yt, yw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
+    gt = 2.0 * (xv * xt + yv * yt)
+    slope = 2.0 * (xv * xw + yv * yw) + gt * turn
     flat = 1.0 / slope
-    following = w - (xv * xv + yv * yv - 1.0 - gt * (fv * over)) * flat
+    straight = (1.0 - xv * xv - yv * yv) * flat
+    # Where an interval ends long before its root the bend would turn the step around.
+    following = w + straight * max(1.0 - 0.5 * straight * bend * flat, 0.5)
     following = min(max(following, low), high)
     moved = following - w
-    turned = -(fv + fw * moved) * over
+    turned = (turn + 0.5 * turning * moved) * moved
     at = min(max(t + turned, -1.0), 1.0)
-    # A second step with the slopes of the first.
-    fv = value(mixed(f0, f1, following), at)
-    xv, yv = value(mixed(x0, x1, following), at), value(mixed(y0, y1, following), at)
-    rest = fv * over
-    g = xv * xv + yv * yv - 1.0 - gt * rest
-    step = -g * flat
+    # A second step, Newton's, with the slope of the first and what the bend has made of it.
+    p, q = point + bundle * following, point * following + bundle
+    xv, yv = p * value(X[0], at) + q * value(xr, at), p * value(Y[0], at) + q * value(yr, at)
+    rest = (p * value(F[0], at) + q * value(fr, at)) * over
+    g = xv * xv + yv * yv - 1.0 - 2.0 * (xv * xt + yv * yt) * rest
+    change = bend * moved * flat
+    slope += bend * moved
+    flat *= 1.0 - change
+    step = -g * flat * (2.0 - slope * flat)
     wide = high - low
     first = abs(moved) + wide * abs(turned)
-    second = abs(step) + wide * abs(rest + fw * over * step)
-    # The slope has changed by about bend * first, or as the second step has it.
-    left = second * (2.0 * first * abs(bend * flat) + 4.0 * second / (first + 1e-300))
+    second = abs(step) + wide * abs(rest - turn * step)
+    # The slope is wrong by about the square of the part it has changed by, or as the second step
+    # has it; what was left against roots found to the end was a quarter of this at the most.
+    near = first * abs(bend * flat)
+    left = 4.0 * second * (near * near * first + second)
     beyond = (following == end) & (g < 0.0)
-    fine = ((left < enough) | (second < 1e-15)) & ((slope > 0.0) == rising)
+    fine = ((left < enough * first) | (second < 1e-15)) & ((slope > 0.0) == rising)
     fine = (abs(rest) < _ON_PLANE) if beyond else fine
     root = min(max(following + step, low), high)
     return (end if beyond else root), fine
@@ -210,28 +226,26 @@ def chords(
     enough: float,
 ) -> None:
     """Write both ends of n chords into ``FV`` and ``FT``, and whether they are good into ``FW``."""
-    px, py = plane(polynomials, k, 4), plane(polynomials, k, 8)
-    pf = plane(polynomials, k, 0)
-    oxi, oyi, ozi = rays[1, 0], rays[1, 1], rays[1, 2]
-    oxj, oyj, ozj = rays[2, 0], rays[2, 1], rays[2, 2]
-    dx0, dy0, dz0 = rays[3, 0], rays[3, 1], rays[3, 2]
-    dxi, dyi, dzi = rays[4, 0], rays[4, 1], rays[4, 2]
-    dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
+    point = from_one_point(rays)
+    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
+    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
+    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
     for m in range(n):
         i, j, a, b = S[RI + m], S[RJ + m], S[RA + m], S[RB + m]
         w, t, turn, turning = S[RW + m], S[RT + m], S[RP + m], S[RE + m]
         g, slope, bend, third, fourth = S[RGA + m], S[RS + m], S[RC + m], S[YT + m], S[YW + m]
-        dx = dx0 + i * dxi + j * dxj
-        dy = dy0 + i * dyi + j * dyj
-        dz = dz0 + i * dzi + j * dzj
-        x, y, z = ox + i * oxi + j * oxj, oy + i * oyi + j * oyj, oz + i * ozi + j * ozj
-        f0, x0, y0 = at_point(pf, x, y, z), at_point(px, x, y, z), at_point(py, x, y, z)
-        f1, x1, y1 = along(pf, dx, dy, dz), along(px, dx, dy, dz), along(py, dx, dy, dz)
-        to = predicted(g, slope, bend, third, fourth, -1.0)
-        at = t + (turn + 0.5 * turning * to) * to
-        entry, sure = end_of_chord(f0, f1, x0, x1, y0, y1, w + to, at, a, w, False, bend, enough)
-        to = predicted(g, slope, bend, third, fourth, 1.0)
-        at = t + (turn + 0.5 * turning * to) * to
-        exit_, certain = end_of_chord(f0, f1, x0, x1, y0, y1, w + to, at, w, b, True, bend, enough)
+        fr, xr, yr = own(F, i, j), own(X, i, j), own(Y, i, j)
+        before, behind = both_ways(g, slope, bend, third, fourth)
+        before, behind = max(before, a - w), min(behind, b - w)
+        at = t + (turn + 0.5 * turning * before) * before
+        curved = bend + (third + 0.5 * fourth * before) * before
+        entry, sure = end_of_chord(
+            F, X, Y, fr, xr, yr, point, w + before, at, a, w, False, curved, turning, enough
+        )
+        at = t + (turn + 0.5 * turning * behind) * behind
+        curved = bend + (third + 0.5 * fourth * behind) * behind
+        exit_, certain = end_of_chord(
+            F, X, Y, fr, xr, yr, point, w + behind, at, w, b, True, curved, turning, enough
+        )
         S[FV + m], S[FT + m] = entry, exit_
         S[FW + m] = 1.0 if sure & certain else 0.0

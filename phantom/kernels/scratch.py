@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from phantom.compiled.layout import CELLS, Scene
 from phantom.kernels.lanes import LANES, ROWS, STRIDE, TILE_COLUMNS
+from phantom.kernels.verdicts import BLOCKS, SIZES
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -29,6 +30,7 @@ class Scratch(NamedTuple):
     slabs: Floats  # (3, 7) sides of a segment's box along the rays, half its width
     beam: Floats  # (10,) one ray in a segment's cells; a plane along the rays
     cells: Floats  # (CELLS, CELLS, 2) of one segment, along the rays of a tile
+    blocks: Floats  # (SIZES * SIZES * BLOCKS,) of those
     pixels: Ints  # (records,) where rays enter or leave a leaf
     where: Floats  # (records,) part of the way from source to pixel
     signs: Floats  # (records,) 1 in, -1 out
@@ -68,6 +70,7 @@ def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
         slabs=np.empty((3, 7)),
         beam=np.empty(10),
         cells=np.empty((CELLS, CELLS, 2)),
+        blocks=np.empty(SIZES * SIZES * BLOCKS),
         pixels=np.empty(_RECORDS, dtype=ints),
         where=np.empty(_RECORDS),
         signs=np.empty(_RECORDS),

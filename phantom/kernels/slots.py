@@ -81,19 +81,25 @@ def settle(
     leaf: int,
     united: bool,
     count: int,
+    paired: int,
     held: Scratch,
     slots: int,
 ) -> int:
     """Turn the records of one leaf into slots; return how many slots there are, or -1 for no room.
 
     Nearly always a pixel's records add up to one interval: where its ends lie as far apart as the
-    pieces are long together. Where they do not, or where ``united`` parts may overlap, the records
-    are sorted. ``book`` (3, lanes) counts a pixel's records, says where they begin once they are
-    brought together, and how many have been.
+    pieces are long together. Where they do not, or where ``united`` parts may overlap, what cancels
+    is taken out and the rest sorted. ``book`` (3, lanes) counts a pixel's records, says where they
+    begin once they are brought together, and how many have been.
     """
     pixels, where, signs = held.pixels, held.where, held.signs
     first, last, total, book = held.first, held.last, held.total, held.book
     ends, owners = held.ends, held.owners
+    cancelled = united or paired > 0
+    if cancelled:
+        count = let_go(pair_up(paired, count, held), held)
+    if count < 0 or slots >= len(owners):
+        return -1
     for p in range(LANES):
         first[p], last[p], total[p], book[0, p] = 2.0, -1.0, 0.0, 0
     for r in range(count):
@@ -105,13 +111,11 @@ def settle(
         else:
             last[p] = max(last[p], w)
             total[p] += w
-    if slots >= len(owners):
-        return -1
     base = slots
     clear(ends, base)
     owners[base] = leaf
     slots += 1
-    several = count
+    unsettled = False
     for p in range(LANES):
         if book[0, p] == 0:
             continue
@@ -119,10 +123,22 @@ def settle(
             ends[2 * base, p], ends[2 * base + 1, p] = first[p], last[p]
             book[0, p] = 0
         else:
+            unsettled = True
+    if not unsettled:
+        return slots
+    if not cancelled:
+        count = let_go(pair_up(whole(0), count, held), held)
+        if count < 0:
+            return -1
+        for p in range(LANES):
+            book[1, p], book[0, p] = book[0, p], 0
+        for r in range(count):
+            book[0, pixels[r]] += 1 if book[1, pixels[r]] > 0 else 0
+    several = count
+    for p in range(LANES):
+        if book[0, p] > 0:
             book[1, p], book[2, p] = several, 0
             several += book[0, p]
-    if several == count:
-        return slots
     # The rest is brought together behind the records, pixel by pixel, and sorted on the way.
     if several > len(pixels):
         return -1

@@ -13,7 +13,7 @@ from phantom.kernels.isolation import isolate
 from phantom.kernels.lanes import TILE_COLUMNS, TILE_ROWS, collect
 from phantom.kernels.roots import ERROR_MM
 from phantom.kernels.scratch import Scratch
-from phantom.kernels.slots import clear, cut, ellipsoids, let_go, other_quadrics, pair_up, settle
+from phantom.kernels.slots import clear, cut, ellipsoids, other_quadrics, pair_up, settle
 from phantom.kernels.spans import combine
 
 Floats = NDArray[np.float64]
@@ -47,10 +47,14 @@ def cylinder_records(
     shortest: float,
     enough: float,
     held: Scratch,
-) -> int:
-    """Record where the rays of a tile enter and leave the segments of a generalized cylinder."""
+) -> tuple[int, int]:
+    """Record where the rays of a tile enter and leave the segments of a generalized cylinder.
+
+    Returns how many records there are, negative for no room, and how many of them are paired up:
+    a ray through very many segments would need too much room for what cancels.
+    """
     rays, knots, slabs, middle = held.rays, held.knots, held.slabs, held.middle
-    filled = whole(0)
+    filled, paired = whole(0), whole(0)
     center = scene.leaf_center[leaf]
     parts = scene.first_part[leaf + 1] - scene.first_part[leaf]
     # What is left of a chord in the next part may be far shorter than the chord itself.
@@ -93,7 +97,6 @@ def cylinder_records(
             n = collect(held.lanes, knots, k - first, slabs, i0, i1, j0, j1)
             if n == 0:
                 continue
-            before = filled
             filled = isolate(
                 n,
                 i0,
@@ -113,9 +116,10 @@ def cylinder_records(
             )
             if filled < 0:
                 held.senses[:] = 0.0
-                return -1
-            filled = pair_up(before, filled, held)
-    return let_go(filled, held)
+                return filled, paired
+            if 2 * filled > len(held.pixels):
+                filled = paired = pair_up(paired, filled, held)
+    return filled, paired
 
 
 @inner
@@ -208,13 +212,13 @@ def leaf_slots(
         if parts == 0:
             slots = quadric_slots(scene, leaf, i0, i1, j0, j1, columns, held, slots)
         else:
-            count = cylinder_records(
+            count, paired = cylinder_records(
                 scene, leaf, row, column, rows, columns, fields, shortest, enough, held
             )
             if count < 0:
                 return -1
             if count > 0:
-                slots = settle(leaf, parts > 1, count, held, slots)
+                slots = settle(leaf, parts > 1, count, paired, held, slots)
         if slots < 0:
             return -1
         for k in range(scene.first_plane[leaf], scene.first_plane[leaf + 1]):

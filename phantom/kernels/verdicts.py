@@ -1,7 +1,8 @@
 """What is known of an interval of a lane: no root of G, one, or that it must be split.
 
-The tests are those of :mod:`phantom.kernels.cylinder`. Bounds over the whole segment are tried on
-all lanes at once; only where these leave a doubt are the cells that a ray runs through looked at.
+The tests are those of :mod:`phantom.kernels.cylinder`. Bounds over the whole segment are tried
+first, and where these leave a doubt those of the rectangle of cells that holds the interval; both
+on many lanes at once. Only contours with corners are looked at ray by ray.
 """
 
 from __future__ import annotations
@@ -13,13 +14,7 @@ from numpy.typing import NDArray
 
 from phantom.compiled.layout import CELLS
 from phantom.kernels.compiling import inner, lane, lane_loop
-from phantom.kernels.cylinder import (
-    cells_between,
-    crosses_once,
-    curvature,
-    stays_positive,
-    within_row,
-)
+from phantom.kernels.cylinder import EDGE, crosses_once, curvature, stays_positive
 from phantom.kernels.lanes import (
     GA,
     GB,
@@ -36,6 +31,12 @@ Floats = NDArray[np.float64]
 
 DONE, ROOT, DOUBT, SPLIT = 0.0, 1.0, 2.0, 3.0
 """No root, one root, perhaps, or that a split will tell."""
+
+SIZES = 4
+"""Blocks are 1, 2, 4 or 8 cells long."""
+
+BLOCKS = 2 * CELLS * CELLS
+"""Numbers that the blocks of one size have."""
 
 
 @lane
@@ -114,6 +115,14 @@ def in_doubt(S: Floats, n: int) -> bool:
     return doubts > 0
 
 
+@lane
+def spread(slabs: Floats, axis: int, i0: int, i1: int, j0: int, j1: int) -> tuple[float, float]:
+    """Return the ends of what a component of the rays' direction is over a rectangle of pixels."""
+    d, i, j = slabs[axis, 3], slabs[axis, 4], slabs[axis, 5]
+    least = d + min(i * i0, i * i1) + min(j * j0, j * j1)
+    return least, d + max(i * i0, i * i1) + max(j * j0, j * j1)
+
+
 @inner
 def bound_cells(
     hessians: Floats, k: int, slabs: Floats, i0: int, i1: int, j0: int, j1: int, cells: Floats
@@ -123,20 +132,15 @@ def bound_cells(
     The direction is linear in row and column, so each of its components lies between those of the
     corners, and each product of two between the products of their ends.
     """
-    least, most = np.empty(3), np.empty(3)
-    for axis in range(3):
-        d = slabs[axis, 3]
-        i, j = slabs[axis, 4], slabs[axis, 5]
-        least[axis] = d + min(i * i0, i * i1) + min(j * j0, j * j1)
-        most[axis] = d + max(i * i0, i * i1) + max(j * j0, j * j1)
     for row in range(CELLS):
         for column in range(CELLS):
             cells[row, column, 0] = cells[row, column, 1] = 0.0
     for pair in range(6):
         a = pair if pair < 3 else (0 if pair < 5 else 1)
         b = pair if pair < 3 else (1 if pair == 3 else 2)
-        p, q = least[a] * least[b], least[a] * most[b]
-        r, s = most[a] * least[b], most[a] * most[b]
+        least, most = spread(slabs, a, i0, i1, j0, j1)
+        first, last = spread(slabs, b, i0, i1, j0, j1)
+        p, q, r, s = least * first, least * last, most * first, most * last
         low, high = min(min(p, q), min(r, s)), max(max(p, q), max(r, s))
         if a == b:
             low = max(low, 0.0)
@@ -149,19 +153,77 @@ def bound_cells(
                 cells[row, column, 1] += max(max(low * x, high * x), max(low * y, high * y))
 
 
-@inner
-def over_cells(
-    cells: Floats, p1: float, d1: float, p2: float, d2: float, start: float, end: float
-) -> tuple[float, float]:
-    """Return the bounds of G'' over the cells that [start, end] of a ray, given in cells, meets."""
-    low, high = math.inf, -math.inf
-    first, last = cells_between(p1, d1, start, end)
-    for i in range(first, last + 1):
-        a, b = within_row(i, first, last, p1, d1, start, end)
-        left, right = cells_between(p2, d2, a, b)
-        for j in range(left, right + 1):
-            low, high = min(low, cells[i, j, 0]), max(high, cells[i, j, 1])
-    return low, high
+@lane_loop
+def bound_blocks(cells: Floats, blocks: Floats) -> None:
+    """Bound G'' over blocks of 1, 2, 4 and 8 cells a side, from every cell on, into ``blocks``.
+
+    Any rectangle of cells is the union of four blocks, which may overlap. ``blocks`` is flat: sides
+    along e1 and e2 as powers of two, first row, first column, low and high.
+    """
+    for row in range(CELLS):
+        for column in range(CELLS):
+            at = 2 * (row * CELLS + column)
+            blocks[at], blocks[at + 1] = cells[row, column, 0], cells[row, column, 1]
+    for size in range(1, SIZES):
+        half = 1 << (size - 1)
+        to, source = size * SIZES * BLOCKS, (size - 1) * SIZES * BLOCKS
+        for row in range(CELLS + 1 - 2 * half):
+            for column in range(CELLS):
+                at = 2 * (row * CELLS + column)
+                far = at + 2 * half * CELLS
+                low, high = blocks[source + at], blocks[source + at + 1]
+                blocks[to + at] = min(low, blocks[source + far])
+                blocks[to + at + 1] = max(high, blocks[source + far + 1])
+    for tall in range(SIZES):
+        for size in range(1, SIZES):
+            half = 1 << (size - 1)
+            to = (tall * SIZES + size) * BLOCKS
+            for row in range(CELLS + 1 - (1 << tall)):
+                for column in range(CELLS + 1 - 2 * half):
+                    at = to + 2 * (row * CELLS + column)
+                    near = at - BLOCKS
+                    far = near + 2 * half
+                    blocks[at] = min(blocks[near], blocks[far])
+                    blocks[at + 1] = max(blocks[near + 1], blocks[far + 1])
+
+
+@lane
+def reaching(p: float, d: float, start: float, end: float) -> tuple[int, int, int]:
+    """Return the first cell that p + w d meets, and of the blocks that cover all: size, second."""
+    a, b = p + start * d, p + end * d
+    first = min(max(min(a, b) - EDGE, 0.0), CELLS - 1.0)
+    last = min(max(max(a, b) + EDGE, 0.0), CELLS - 1.0)
+    f, e = int(first), int(last)
+    count = e - f + 1
+    size = (1 if count >= 2 else 0) + (1 if count >= 4 else 0) + (1 if count >= 8 else 0)
+    side = 8 if count >= 8 else (4 if count >= 4 else (2 if count >= 2 else 1))
+    return f, size, e + 1 - side
+
+
+@lane_loop
+def judge_closer(S: Floats, n: int, slabs: Floats, blocks: Floats, shortest: float) -> None:
+    """Write the verdict on n intervals, by the cells that hold each, into ``LOW``; no doubts."""
+    c0, c1 = 0.5 * CELLS / slabs[0, 6], 0.5 * CELLS / slabs[1, 6]
+    p0, p0i, p0j = (slabs[0, 0] + slabs[0, 6]) * c0, slabs[0, 1] * c0, slabs[0, 2] * c0
+    p1, p1i, p1j = (slabs[1, 0] + slabs[1, 6]) * c1, slabs[1, 1] * c1, slabs[1, 2] * c1
+    d0, d0i, d0j = slabs[0, 3] * c0, slabs[0, 4] * c0, slabs[0, 5] * c0
+    d1, d1i, d1j = slabs[1, 3] * c1, slabs[1, 4] * c1, slabs[1, 5] * c1
+    for m in range(n):
+        i, j, a, b = S[I + m], S[J + m], S[A + m], S[B + m]
+        row, tall, below = reaching(p0 + i * p0i + j * p0j, d0 + i * d0i + j * d0j, a, b)
+        column, wide, beside = reaching(p1 + i * p1i + j * p1j, d1 + i * d1i + j * d1j, a, b)
+        block = (tall * SIZES + wide) * BLOCKS
+        k0 = np.uint64(block + 2 * (row * CELLS + column))
+        k1 = np.uint64(block + 2 * (row * CELLS + beside))
+        k2 = np.uint64(block + 2 * (below * CELLS + column))
+        k3 = np.uint64(block + 2 * (below * CELLS + beside))
+        one = np.uint64(1)
+        low = min(min(blocks[k0], blocks[k1]), min(blocks[k2], blocks[k3]))
+        high = max(max(blocks[k0 + one], blocks[k1 + one]), max(blocks[k2 + one], blocks[k3 + one]))
+        g0, g1, span = S[GA + m], S[GB + m], b - a
+        found = verdict(g0, S[SA + m], g1, S[SB + m], span, low, high)
+        ended = ROOT if (g0 < 0.0) != (g1 < 0.0) else DONE
+        S[LOW + m] = ended if span < shortest else (SPLIT if found == DOUBT else found)
 
 
 @inner
@@ -187,25 +249,21 @@ def look_closer(
 
 
 @inner
-def look_at_all(
+def look_at_corners(
     S: Floats,
     n: int,
     slabs: Floats,
-    cornered: bool,
     hessians: Floats,
     kinks: Floats,
     k: int,
     beam: Floats,
-    cells: Floats,
     shortest: float,
 ) -> None:
-    """Settle the doubts among n verdicts in ``LOW``; those on a contour with corners are none yet.
+    """Write the verdict on n intervals of a contour with corners into ``LOW``, one by one.
 
     One loop and few arrays: handing a scene to a function costs more than looking at an interval.
     """
     for m in range(n):
-        if not cornered and S[LOW + m] != DOUBT:
-            continue
         g0, s0, g1, s1 = S[GA + m], S[SA + m], S[GB + m], S[SB + m]
         a, b = S[A + m], S[B + m]
         if b - a < shortest:
@@ -214,15 +272,11 @@ def look_at_all(
         i, j = S[I + m], S[J + m]
         e0 = slabs[0, 3] + i * slabs[0, 4] + j * slabs[0, 5]
         e1 = slabs[1, 3] + i * slabs[1, 4] + j * slabs[1, 5]
+        e2 = slabs[2, 3] + i * slabs[2, 4] + j * slabs[2, 5]
         c0, c1 = 0.5 * CELLS / slabs[0, 6], 0.5 * CELLS / slabs[1, 6]
         p0 = (slabs[0, 0] + i * slabs[0, 1] + j * slabs[0, 2] + slabs[0, 6]) * c0
         p1 = (slabs[1, 0] + i * slabs[1, 1] + j * slabs[1, 2] + slabs[1, 6]) * c1
-        if not cornered:
-            low, high = over_cells(cells, p0, e0 * c0, p1, e1 * c1, a, b)
-            S[LOW + m] = look_closer(g0, s0, g1, s1, b - a, low, high, 0.0, 0.0)
-            continue
         # Jumps of the slope are bounded by mm along the ray: all is brought to them.
-        e2 = slabs[2, 3] + i * slabs[2, 4] + j * slabs[2, 5]
         length = math.sqrt(e0 * e0 + e1 * e1 + e2 * e2)
         e0, e1, e2 = e0 / length, e1 / length, e2 / length
         a, b, s0, s1 = a * length, b * length, s0 / length, s1 / length

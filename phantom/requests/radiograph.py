@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import Annotated, Any, Final, Literal, TypeVar, cast
+from typing import Annotated, Any, Literal, TypeVar, cast
 
 import numpy as np
 from pydantic import Field
@@ -42,9 +42,6 @@ from phantom.scene import Phantom
 
 ModelT = TypeVar("ModelT", bound=Model)
 Quantity = Literal["signal", "transmission", "line_integral", "path_lengths"]
-
-LARGE_PIXELS: Final = 2**21
-"""From here on a picture that needs no path lengths is traced without keeping them."""
 
 
 class RadiographRequest(Model):
@@ -152,14 +149,8 @@ class RadiographPlan:
             workers=workers,
             cancelled=cancelled,
             progress=progress,
-            keep_path_lengths=self._keeps_path_lengths,
+            keep_path_lengths=self.quantity not in ("signal", "transmission"),
         )
-
-    @property
-    def _keeps_path_lengths(self) -> bool:
-        """Whether they are worth their memory: they are asked for, or the picture is small."""
-        pixels = self.view.detector.rows * self.view.detector.columns
-        return self.quantity not in ("signal", "transmission") or pixels < LARGE_PIXELS
 
     def tell(
         self,

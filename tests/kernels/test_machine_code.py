@@ -11,6 +11,7 @@ import pytest
 from llvmlite.binding import get_host_cpu_features
 
 from phantom.kernels import glances, lanes, roots, round_tubes, slots, spans, verdicts
+from phantom.kernels.registers import LoopCompiler
 
 pytestmark = pytest.mark.skipif(
     platform.machine() not in ("x86_64", "AMD64"), reason="reads the names of x86's registers"
@@ -34,7 +35,7 @@ LOOPS = {
     "one look": (
         round_tubes.probe,
         (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
-        {"vfmadd": 120, "vdivpd": 3},
+        {"vfmadd": 120, "vdivpd": 2},
     ),
     "judge one look": (
         glances.judge_glance,
@@ -44,17 +45,32 @@ LOOPS = {
     "both ends": (
         round_tubes.chords,
         (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT, FLOAT),
-        {"vfmadd": 300, "vdivpd": 8, "vsqrtpd": 1},
+        {"vfmadd": 250, "vdivpd": 4, "vsqrtpd": 1},
     ),
     "collect": (
         lanes.collect,
         (FLOATS, MATRIX, INT, MATRIX, INT, INT, INT, INT),
-        {"vdivpd": 5},
+        {"vdivpd": 3},
     ),
     "judge": (
         verdicts.judge,
         (FLOATS, INT, MATRIX, TENSOR, INT),
         {"vsqrtpd": 2, "vdivpd": 3},
+    ),
+    "judge closer": (
+        verdicts.judge_closer,
+        (FLOATS, INT, MATRIX, FLOATS, FLOAT),
+        {"vsqrtpd": 2, "vgather": 8},
+    ),
+    "cells of a contour": (
+        lanes.find_cells,
+        (FLOATS, INT, numba.int64[::1], INT, INT, FLOATS, INT, INT, INT),
+        {"vdivpd": 1, "gather": 2},
+    ),
+    "a contour": (
+        lanes.fixed_cells,
+        (FLOATS, INT, FLOATS, INT, MATRIX),
+        {"vfmadd": 8, "vgather": 8},
     ),
     "first guess": (roots.first_guess, (FLOATS, INT), {"vsqrtpd": 1, "vdivpd": 3}),
     "newton": (roots.newton, (FLOATS, INT), {"vdivpd": 2}),
@@ -70,7 +86,9 @@ LOOPS = {
 def machine_code(kernel, signature):
     # Compiled anew: numba keeps no listing of what it loads from its cache.
     options = {k: v for k, v in kernel.targetoptions.items() if k in ("fastmath", "error_model")}
-    fresh = numba.njit(nogil=True, **options)(kernel.py_func)
+    fresh = numba.njit(nogil=True, pipeline_class=LoopCompiler, _nrt=False, **options)(
+        kernel.py_func
+    )
     fresh.compile(signature)
     return fresh.inspect_asm(fresh.signatures[0])
 
