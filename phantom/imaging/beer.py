@@ -21,9 +21,6 @@ FloatArray = NDArray[np.float64]
 BAND_PIXELS: Final = 2**17
 """About how many pixels a thread takes at once."""
 
-CACHE_PIXELS: Final = 2**13
-"""About how many pixels are summed at once; arrays twice as long would be new memory each time."""
-
 PRODUCT_LIMIT: Final = 2**18
 """Most multiplications of one block: larger products would start threads of their own."""
 
@@ -60,7 +57,8 @@ def band_transmission(
     ``found`` is (rows, columns).
     """
     if attenuation_per_mm.ndim == 1:
-        _sum(lengths, attenuation_per_mm, found, _beer)
+        _sum(lengths, attenuation_per_mm, found)
+        np.exp(np.negative(found, out=found), out=found)
         return
     left = np.empty(lengths.shape[1:])
     flat = np.moveaxis(lengths, 0, -1).reshape(-1, len(lengths))
@@ -70,27 +68,13 @@ def band_transmission(
     np.minimum(left, 1.0, out=found)
 
 
-def _beer(total: FloatArray) -> None:
-    np.exp(np.negative(total, out=total), out=total)
+def _sum(lengths: FloatArray, attenuation_per_mm: FloatArray, found: FloatArray) -> None:
+    """Write Σ_m μ_m L_m of (M, rows, columns) into ``found`` (rows, columns)."""
+    from phantom.kernels.beer import add_material
 
-
-def _sum(
-    lengths: FloatArray,
-    attenuation_per_mm: FloatArray,
-    found: FloatArray,
-    after: Callable[[FloatArray], None] | None = None,
-) -> None:
-    """Write Σ_m μ_m L_m, and what ``after`` makes of it, a few rows at a time: all in the cache."""
-    rows, columns = found.shape
-    step = max(1, CACHE_PIXELS // max(columns, 1))
-    product = np.empty((min(step, rows), columns))
-    for first in range(0, rows, step):
-        total, band = found[first : first + step], lengths[:, first : first + step]
-        np.multiply(band[0], attenuation_per_mm[0], out=total)
-        for length, attenuation in zip(band[1:], attenuation_per_mm[1:], strict=True):
-            total += np.multiply(length, attenuation, out=product[: len(total)])
-        if after is not None:
-            after(total)
+    total = found.reshape(-1)
+    for m, attenuation in enumerate(attenuation_per_mm):
+        add_material(lengths[m].reshape(-1), float(attenuation), m == 0, total)
 
 
 def _by_rows(lengths: FloatArray, one: Callable[[FloatArray, FloatArray], None]) -> FloatArray:

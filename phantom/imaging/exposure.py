@@ -23,7 +23,6 @@ from phantom.imaging.refusals import check_exposure
 from phantom.imaging.result import Radiograph, sealed, signal_weights
 from phantom.imaging.spectrum import Spectrum
 from phantom.imaging.traces import Traces
-from phantom.imaging.truncation import truncated
 from phantom.imaging.view import FloatArray, View
 
 if TYPE_CHECKING:
@@ -107,7 +106,6 @@ def radiograph(
         acquisition=acquisition,
         noise=key,
         exposed=exposed,
-        truncated=truncated(phantom, view, projection(view)),
         warnings=(
             *_warnings(phantom, view, beam, acquisition),
             *(() if exposed is None else exposed.warnings),
@@ -166,8 +164,8 @@ def _warnings(
         bounds = np.asarray(phantom.bounds)
         if np.all((bounds[0] < view.source) & (bounds[1] > view.source)):
             found.append("the source lies within the phantom's bounding box")
-    depth = projection(view).depth_mm(box_corners(phantom.bounds))
-    limit = projection(view).distance_mm
+    camera = projection(view)
+    depth, limit = camera.depth_mm(box_corners(phantom.bounds)), camera.distance_mm
     if float(depth.max()) > (limit if limit is not None else 0.0):
         found.append("part of the phantom's bounding box lies behind the detector and is not seen")
     return found

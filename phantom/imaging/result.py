@@ -33,6 +33,7 @@ from phantom.imaging.presentation import GreyArray, Presentation, present
 from phantom.imaging.presentation_stage import presentation_stage
 from phantom.imaging.spectrum import Spectrum
 from phantom.imaging.traces import Traces
+from phantom.imaging.truncation import truncated
 from phantom.imaging.truth import KINDS, Truth
 from phantom.imaging.tube import spectrum_stages
 from phantom.imaging.view import FloatArray, View
@@ -78,8 +79,6 @@ class Radiograph:
         Whose noise the signal has.
     exposed
         What the acquisition's detector read; None without one.
-    truncated
-        Names of the leaves that are not wholly in the field.
     warnings
         What was asked for and had no effect, or is likely to surprise.
     """
@@ -94,7 +93,6 @@ class Radiograph:
     acquisition: Acquisition | None
     noise: NoiseKey
     exposed: Exposed | None
-    truncated: tuple[str, ...]
     warnings: tuple[str, ...]
 
     @property
@@ -138,6 +136,11 @@ class Radiograph:
         if self.left is not None:
             return self.left
         return sealed(transmission(self._lengths, self.attenuation_per_mm, self.weights))
+
+    @cached_property
+    def truncated(self) -> tuple[str, ...]:
+        """Names of the leaves that are not wholly in the field."""
+        return truncated(self.phantom, self.view, projection(self.view))
 
     @property
     def _lengths(self) -> FloatArray:

@@ -47,7 +47,10 @@ def border(view: View) -> FloatArray:
 def truncated(phantom: Phantom, view: View, camera: Projection) -> tuple[str, ...]:
     """Return the names of the leaves that are not wholly in the field, in the document's order."""
     shown = np.asarray(phantom.leaf_materials) >= 0
-    inside = np.array([_box_is_inside(box, view, camera) for box in phantom.leaf_bounds])
+    boxes = np.asarray(phantom.leaf_bounds, dtype=np.float64)
+    corners = np.stack([box_corners(box) for box in boxes]).reshape(-1, 3)
+    with np.errstate(invalid="ignore"):  # a leaf without bounds is inside of nothing
+        inside = _in_field(camera.project(corners), view).reshape(-1, 8).all(axis=1)
     doubtful = shown & ~inside
     if not doubtful.any():
         return ()
@@ -62,12 +65,6 @@ def _in_field(image: FloatArray, view: View) -> NDArray[np.bool_]:
     size = np.array([view.detector.columns, view.detector.rows])
     found: NDArray[np.bool_] = np.all((image > -0.5) & (image < size - 0.5), axis=-1)
     return found
-
-
-def _box_is_inside(box: FloatArray, view: View, camera: Projection) -> bool:
-    if not np.isfinite(box).all():
-        return False
-    return bool(_in_field(camera.project(box_corners(box)), view).all())
 
 
 def _cut_by_border(phantom: Phantom, view: View) -> NDArray[np.bool_]:

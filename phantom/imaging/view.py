@@ -100,7 +100,8 @@ class Detector(Asked):
     @property
     def normal(self) -> FloatArray:
         """Unit vector ``right × down``: away from the viewer of the picture."""
-        return np.cross(*self.axes)
+        (a, b, c), (d, e, f) = self.axes
+        return np.array([b * f - c * e, c * d - a * f, a * e - b * d])
 
     def pixel(self, column: float, row: float) -> FloatArray:
         """Return the world point, in mm, of a position on the grid; whole numbers are centres."""

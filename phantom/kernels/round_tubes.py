@@ -142,8 +142,12 @@ def both_ways(
     return before, behind
 
 
+Jet = tuple[float, float, float, float, float, float, float, float]
+"""Of a point: w, tau, G, 1 / G', dtau/dw, 1 / F_tau, and the slopes of x and y along tau."""
+
+
 @lane
-def end_of_chord(
+def first_look(
     F: Fan,
     X: Fan,
     Y: Fan,
@@ -151,24 +155,14 @@ def end_of_chord(
     xr: Row,
     yr: Row,
     point: float,
-    guess: float,
+    w: float,
     tau: float,
-    low: float,
-    high: float,
-    rising: bool,
-    bend: float,
-    turning: float,
-    enough: float,
-) -> tuple[float, bool]:
-    """Find the root of G between two w, of which the one it rises toward is the interval's end.
+) -> Jet:
+    """Mend tau at w, and take G and its slope there.
 
-    Returns it, or that end where G is still negative there, and whether it is good enough. ``fr``,
-    ``xr`` and ``yr`` are what the ray has of its own, ``bend`` is about G'' at the guess and
-    ``turning`` about the second derivative of tau. The first step is Chebyshev's, of third order.
+    ``fr``, ``xr`` and ``yr`` are what the ray has of its own.
     """
     bundle = 1.0 - point
-    end = high if rising else low
-    w = min(max(guess, low), high)
     t = min(max(tau, -1.0), 1.0)
     p, q = point + bundle * w, point * w + bundle
     (c, ct), (u, ut) = value_and_slope(F[0], t), value_and_slope(fr, t)
@@ -180,25 +174,52 @@ def end_of_chord(
     xv, xt, xw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
     (c, ct), (u, ut) = value_and_slope(Y[0], t), value_and_slope(yr, t)
     yv, yt, yw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
-    gt = 2.0 * (xv * xt + yv * yt)
-    slope = 2.0 * (xv * xw + yv * yw) + gt * turn
-    flat = 1.0 / slope
-    straight = (1.0 - xv * xv - yv * yv) * flat
-    # Where an interval ends long before its root the bend would turn the step around.
+    slope = 2.0 * (xv * xw + yv * yw) + 2.0 * (xv * xt + yv * yt) * turn
+    return w, t, xv * xv + yv * yv - 1.0, 1.0 / slope, turn, over, xt, yt
+
+
+@lane
+def second_look(
+    F: Fan,
+    X: Fan,
+    Y: Fan,
+    fr: Row,
+    xr: Row,
+    yr: Row,
+    point: float,
+    jet: Jet,
+    low: float,
+    high: float,
+    rising: bool,
+    bend: float,
+    turning: float,
+    enough: float,
+) -> tuple[float, bool]:
+    """Step to the root of G between two w, of which the one it rises toward is the interval's end.
+
+    Returns it, or that end where G is still negative there, and whether it is good enough.
+    ``bend`` is about G'' at the first look and ``turning`` about the second derivative of tau.
+    """
+    w, t, g, flat, turn, over, xt, yt = jet
+    bundle = 1.0 - point
+    end = high if rising else low
+    # The first step is Chebyshev's, of third order; where an interval ends long before its root
+    # the bend would turn it around.
+    straight = -g * flat
     following = w + straight * max(1.0 - 0.5 * straight * bend * flat, 0.5)
     following = min(max(following, low), high)
     moved = following - w
     turned = (turn + 0.5 * turning * moved) * moved
     at = min(max(t + turned, -1.0), 1.0)
-    # A second step, Newton's, with the slope of the first and what the bend has made of it.
     p, q = point + bundle * following, point * following + bundle
     xv, yv = p * value(X[0], at) + q * value(xr, at), p * value(Y[0], at) + q * value(yr, at)
     rest = (p * value(F[0], at) + q * value(fr, at)) * over
     g = xv * xv + yv * yv - 1.0 - 2.0 * (xv * xt + yv * yt) * rest
+    # The second is Newton's, with the slope of the first and what the bend has made of it: that is
+    # 1 / flat (1 + change), turned over by two steps that need no division.
     change = bend * moved * flat
-    slope += bend * moved
-    flat *= 1.0 - change
-    step = -g * flat * (2.0 - slope * flat)
+    upright = (1.0 - change) * (1.0 + change * change)
+    step = -g * flat * upright
     wide = high - low
     first = abs(moved) + wide * abs(turned)
     second = abs(step) + wide * abs(rest - turn * step)
@@ -207,7 +228,7 @@ def end_of_chord(
     near = first * abs(bend * flat)
     left = 4.0 * second * (near * near * first + second)
     beyond = (following == end) & (g < 0.0)
-    fine = ((left < enough * first) | (second < 1e-15)) & ((slope > 0.0) == rising)
+    fine = ((left < enough * first) | (second < 1e-15)) & ((flat * (1.0 + change) > 0.0) == rising)
     fine = (abs(rest) < _ON_PLANE) if beyond else fine
     root = min(max(following + step, low), high)
     return (end if beyond else root), fine
@@ -237,15 +258,19 @@ def chords(
         fr, xr, yr = own(F, i, j), own(X, i, j), own(Y, i, j)
         before, behind = both_ways(g, slope, bend, third, fourth)
         before, behind = max(before, a - w), min(behind, b - w)
+        # Both ends side by side: the processor does the one while the other waits.
+        v, u = min(max(w + before, a), w), min(max(w + behind, w), b)
         at = t + (turn + 0.5 * turning * before) * before
-        curved = bend + (third + 0.5 * fourth * before) * before
-        entry, sure = end_of_chord(
-            F, X, Y, fr, xr, yr, point, w + before, at, a, w, False, curved, turning, enough
-        )
+        one = first_look(F, X, Y, fr, xr, yr, point, v, at)
         at = t + (turn + 0.5 * turning * behind) * behind
+        other = first_look(F, X, Y, fr, xr, yr, point, u, at)
+        curved = bend + (third + 0.5 * fourth * before) * before
+        entry, sure = second_look(
+            F, X, Y, fr, xr, yr, point, one, a, w, False, curved, turning, enough
+        )
         curved = bend + (third + 0.5 * fourth * behind) * behind
-        exit_, certain = end_of_chord(
-            F, X, Y, fr, xr, yr, point, w + behind, at, w, b, True, curved, turning, enough
+        exit_, certain = second_look(
+            F, X, Y, fr, xr, yr, point, other, w, b, True, curved, turning, enough
         )
         S[FV + m], S[FT + m] = entry, exit_
         S[FW + m] = 1.0 if sure & certain else 0.0

@@ -95,6 +95,7 @@ def warm(light: bool = True) -> None:
     """
     import numpy as np
 
+    from phantom.kernels.beer import add_material
     from phantom.kernels.compiling import mark_complete
     from phantom.scene import load
     from phantom.tracing.points import materials_at
@@ -123,6 +124,8 @@ def warm(light: bool = True) -> None:
     intervals(phantom, origin, along)
     path_lengths(phantom, origin, along)
     materials_at(phantom, origin)
+    for lengths in (np.zeros(1), np.broadcast_to(0.0, 1)):  # to be written to, and not
+        add_material(np.ascontiguousarray(lengths), 1.0, True, np.empty(1))
     if light:
         _warm_light(phantom, origin, along)
     mark_complete(light)
