@@ -17,6 +17,9 @@ Ints = NDArray[np.int64]
 MOST = 62
 """Slots that pixels looked at together may meet: the bits of a mask."""
 
+PROGRAMS = 16
+"""Sets of slots of which is kept what the operators make of them."""
+
 _RECORDS = 128 * LANES
 
 
@@ -46,8 +49,10 @@ class Scratch(NamedTuple):
     wrong: Ints  # (TILE_COLUMNS,) where a span ends
     met: Ints  # (slots,) those that some pixels meet
     events: Floats  # (2 slots,)
-    order: Ints  # (2 slots,)
-    factors: Floats  # (M, 2 slots)
+    known: Ints  # (PROGRAMS,) slots that the operators were evaluated for, as masks
+    sizes: Ints  # (PROGRAMS,) ends of those
+    orders: Ints  # (PROGRAMS, 2 slots) the ends, in the order in which they are met
+    factors: Floats  # (PROGRAMS, M, 2 slots) what each end counts for
     sums: Floats  # (TILE_COLUMNS,)
     present: NDArray[np.uint8]  # (nodes,)
     nodes: Ints
@@ -86,8 +91,10 @@ def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
         wrong=np.empty(TILE_COLUMNS, dtype=ints),
         met=np.empty(slots, dtype=ints),
         events=np.empty(number),
-        order=np.empty(number, dtype=ints),
-        factors=np.empty((channels, number)),
+        known=np.empty(PROGRAMS, dtype=ints),
+        sizes=np.empty(PROGRAMS, dtype=ints),
+        orders=np.empty((PROGRAMS, number), dtype=ints),
+        factors=np.empty((PROGRAMS, channels, number)),
         sums=np.zeros(TILE_COLUMNS),
         present=np.zeros(len(scene.parent), dtype=np.uint8),
         nodes=np.empty(len(scene.parent) + number, dtype=ints),

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from phantom.compiled.layout import Scene
 from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.csg import sort_events, surviving, toggle
-from phantom.kernels.scratch import MOST, Scratch
+from phantom.kernels.scratch import MOST, PROGRAMS, Scratch
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -71,12 +71,18 @@ def put(sums: Floats, rays: Floats, row: int, column: int, width: int, out: Floa
 
 @inner
 def look(ends: Floats, slots: int, start: int, width: int, masks: Ints, met: Ints) -> int:
-    """Note the slots that some pixels meet, and which of them each pixel does.
+    """Note the slots that pixels may meet, and which of them each pixel does.
 
+    Where a mask has a bit for every slot these are all of them, else those that some pixels meet.
     Returns how many there are, or -1 where a mask has no bit left; one pixel needs no mask.
     """
     for j in range(width):
         masks[j] = 0
+    if slots <= MOST:
+        for slot in range(slots):
+            mark(ends, slot, start, width, 1 << slot, masks)
+            met[slot] = slot
+        return slots
     count = whole(0)
     for slot in range(slots):
         if mark(ends, slot, start, width, 1 << min(count, MOST), masks) > 0:
@@ -85,6 +91,19 @@ def look(ends: Floats, slots: int, start: int, width: int, masks: Ints, met: Int
             if count > MOST and width > 1:
                 return -1
     return count
+
+
+@inner
+def leading(ends: Floats, order: Ints, number: int, start: int, width: int, wrong: Ints) -> int:
+    """Return how many pixels, from the first on, meet the ends in this order."""
+    for m in range(width):
+        wrong[m] = 0
+    for e in range(number - 1):
+        falls(ends, order[e], order[e + 1], start, width, wrong)
+    alike = whole(0)
+    while alike < width and wrong[alike] == 0:
+        alike += 1
+    return alike
 
 
 @inner
@@ -101,16 +120,23 @@ def combine(
     """Fill a tile of ``out`` (M, ., .), which begins at a row and a column there, from its slots.
 
     A row is looked at whole; where its pixels meet more slots than a mask has bits, half of it,
-    and so on down to one pixel. What a pixel gets depends on nothing but its own ends. One long
-    function: handing a scene to another costs more than most spans do.
+    and so on down to one pixel. What the operators made of the last few sets of slots is kept: the
+    next row mostly meets the same ones in the same order. What a pixel gets depends on nothing but
+    its own ends. One long function: handing a scene to another costs more than most spans do.
     """
     masks, met = held.masks, held.met
-    ends, owners, order, events = held.ends, held.owners, held.order, held.events
-    wrong, factors, sums = held.wrong, held.factors, held.sums
+    ends, owners, events = held.ends, held.owners, held.events
+    wrong, sums = held.wrong, held.sums
+    known, sizes, orders, sets = held.known, held.sizes, held.orders, held.factors
     present, nodes, kept = held.present, held.nodes, held.kept
     leaves = len(scene.leaf_radius)
     root = len(scene.parent) - 1
     channels = out.shape[0]
+    # Bits have one meaning in all rows only where there is one for every slot.
+    steady = slots <= MOST
+    for p in range(PROGRAMS):
+        known[p] = 0
+    newest = whole(0)
     for i in range(rows):
         first = 0
         while first < columns:
@@ -130,59 +156,68 @@ def combine(
                 if mask == 0:
                     j = end
                     continue
-                number = whole(0)
-                for bit in range(count):
-                    if alone or mask >> bit & 1:
-                        kept[number] = 2 * met[bit]
-                        kept[number + 1] = 2 * met[bit] + 1
-                        number += 2
                 start, width = i * columns + j, end - j
-                for e in range(number):
-                    order[e] = e
-                    events[e] = ends[kept[e], start]
-                sort_events(events, order, number)
-                for e in range(number):
-                    order[e] = kept[order[e]]
-                for m in range(width):
-                    wrong[m] = 0
-                for e in range(number - 1):
-                    falls(ends, order[e], order[e + 1], start, width, wrong)
-                alike = whole(1)
-                while alike < width and wrong[alike] == 0:
-                    alike += 1
-                for channel in range(channels):
+                p, alike = whole(PROGRAMS), whole(0)
+                if steady:
+                    p = whole(0)
+                    while p < PROGRAMS and known[p] != mask:
+                        p += 1
+                    if p < PROGRAMS:
+                        alike = leading(ends, orders[p], sizes[p], start, width, wrong)
+                if alike == 0:
+                    if p == PROGRAMS:
+                        newest = (newest + 1) % PROGRAMS
+                        p = newest
+                    known[p] = mask if steady else 0
+                    number = whole(0)
+                    for bit in range(count):
+                        if alone or mask >> bit & 1:
+                            kept[number] = 2 * met[bit]
+                            kept[number + 1] = 2 * met[bit] + 1
+                            number += 2
+                    order, factors = orders[p], sets[p]
+                    sizes[p] = number
                     for e in range(number):
-                        factors[channel, e] = 0.0
-                for e in range(number):
-                    toggle(
-                        owners[order[e] // 2],
-                        present,
-                        scene.parent,
-                        scene.operator,
-                        scene.left,
-                        scene.right,
-                    )
-                    if e == number - 1:
-                        break
-                    for m in range(
-                        surviving(
-                            root,
-                            leaves,
+                        order[e] = e
+                        events[e] = ends[kept[e], start]
+                    sort_events(events, order, number)
+                    for e in range(number):
+                        order[e] = kept[order[e]]
+                    alike = leading(ends, order, number, start, width, wrong)
+                    for channel in range(channels):
+                        for e in range(number):
+                            factors[channel, e] = 0.0
+                    for e in range(number):
+                        toggle(
+                            owners[order[e] // 2],
                             present,
+                            scene.parent,
                             scene.operator,
                             scene.left,
                             scene.right,
-                            nodes,
-                            kept,
                         )
-                    ):
-                        channel = scene.leaf_material[kept[m]]
-                        if channel >= 0:
-                            factors[channel, e] -= 1.0
-                            factors[channel, e + 1] += 1.0
+                        if e == number - 1:
+                            break
+                        for m in range(
+                            surviving(
+                                root,
+                                leaves,
+                                present,
+                                scene.operator,
+                                scene.left,
+                                scene.right,
+                                nodes,
+                                kept,
+                            )
+                        ):
+                            channel = scene.leaf_material[kept[m]]
+                            if channel >= 0:
+                                factors[channel, e] -= 1.0
+                                factors[channel, e + 1] += 1.0
+                order, factors = orders[p], sets[p]
                 for channel in range(channels):
                     used = False
-                    for e in range(number):
+                    for e in range(sizes[p]):
                         if factors[channel, e] != 0.0:
                             add(ends, order[e], factors[channel, e], start, alike, sums)
                             used = True
