@@ -108,9 +108,6 @@ def judge_glance(S: Floats, n: int, slabs: Floats, hulls: Floats, k: int) -> Non
 @inner
 def glance(
     n: int,
-    ox: float,
-    oy: float,
-    oz: float,
     scene: Scene,
     k: int,
     enough: float,
@@ -122,14 +119,14 @@ def glance(
 
     Returns how many lanes are left, brought to the front, and how many records there are.
     """
-    S, rays, slabs = held.lanes, held.rays, held.slabs
+    S, slabs = held.lanes, held.slabs
     pixels, where, signs = held.pixels, held.where, held.signs
     left = whole(0)
     for base in range(0, n, CHUNK):
         T = S[base:]
         count = min(n - base, CHUNK)
         aim_low(T, count, slabs)
-        probe(T, count, rays, ox, oy, oz, scene.polynomials, k)
+        probe(T, count, held.fans)
         judge_glance(T, count, slabs, scene.hulls, k)
         hits = whole(0)
         for m in range(count):
@@ -152,7 +149,7 @@ def glance(
                 left += 1
         if hits == 0:
             continue
-        chords(T, hits, rays, ox, oy, oz, scene.polynomials, k, enough)
+        chords(T, hits, held.fans, enough)
         for m in range(hits):
             if T[FW + m] == 0.0:
                 S[I + left], S[J + left] = T[RI + m], T[RJ + m]

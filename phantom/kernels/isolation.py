@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from phantom.compiled.layout import Scene
 from phantom.kernels.compiling import inner, lane_loop, whole
 from phantom.kernels.glances import glance
+from phantom.kernels.jets import spread
 from phantom.kernels.lanes import (
     AT_I,
     AT_J,
@@ -128,9 +129,8 @@ def isolate(
 
     Returns how many records there are now; negative where there was no room for them.
     """
-    S, rays, slabs, pixels, where, signs = (
+    S, slabs, pixels, where, signs = (
         held.lanes,
-        held.rays,
         held.slabs,
         held.pixels,
         held.where,
@@ -140,10 +140,11 @@ def isolate(
     cornered = scene.cornered[k] != 0
     bounded = False
     roots = whole(0)
+    spread(scene.polynomials, k, held.rays, ox, oy, oz, held.fans)
     if table < 0:
         if filled + 2 * n > len(pixels):
             return -1
-        n, filled = glance(n, ox, oy, oz, scene, k, enough, held, filled, columns)
+        n, filled = glance(n, scene, k, enough, held, filled, columns)
     base = n
     while base > 0:
         # The ends of the last intervals that are left, then those, split until none is in doubt.
@@ -151,10 +152,10 @@ def isolate(
         base -= n
         T = S[base:]
         ask(T, n, A, False)
-        evaluate_lanes(T, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+        evaluate_lanes(T, n, held.fans, table, scene.tables)
         answer(T, n, GA, SA, TA)
         ask(T, n, B, True)
-        evaluate_lanes(T, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+        evaluate_lanes(T, n, held.fans, table, scene.tables)
         answer(T, n, GB, SB, TB)
         if filled + 2 * n > len(pixels):
             return -1
@@ -176,7 +177,7 @@ def isolate(
             if roots + n > LANES:
                 if filled + roots > len(pixels):
                     return -1
-                filled = polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)
+                filled = polish_lanes(roots, scene, k, enough, held, filled, columns)
                 roots = whole(0)
             if cornered:
                 look_at_corners(T, n, slabs, scene.hessians, scene.kinks, k, held.beam, shortest)
@@ -207,9 +208,9 @@ def isolate(
             if top + 2 * halves > HELD:
                 return -1
             ask_between(T, halves)
-            evaluate_lanes(T, halves, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+            evaluate_lanes(T, halves, held.fans, table, scene.tables)
             halve(T, halves)
             top += 2 * halves
     if filled + roots > len(pixels):
         return -1
-    return polish_lanes(roots, ox, oy, oz, scene, k, enough, held, filled, columns)
+    return polish_lanes(roots, scene, k, enough, held, filled, columns)

@@ -10,11 +10,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from phantom.kernels.compiling import lane
+from phantom.kernels.compiling import lane, lane_loop
 
 Floats = NDArray[np.float64]
 Row = tuple[float, float, float, float, float, float, float]
 Plane = tuple[Row, Row, Row, Row]
+FANS = 3 * 28 + 1
+"""Numbers that are written of a segment: three fans of four rows, and what kind they are."""
+
 Fan = tuple[Row, Row, Row, Row]
 """Of ``a.x - b``: what all rays of a view share, what the first has of its own, and its steps."""
 
@@ -45,14 +48,6 @@ def plane(polynomials: Floats, k: int, j: int) -> Plane:
 
 
 @lane
-def from_one_point(rays: Floats) -> float:
-    """Return 1 where all rays share their origin, 0 where they share their direction instead."""
-    own = abs(rays[1, 0]) + abs(rays[1, 1]) + abs(rays[1, 2])
-    own += abs(rays[2, 0]) + abs(rays[2, 1]) + abs(rays[2, 2])
-    return 1.0 if own == 0.0 else 0.0
-
-
-@lane
 def along(p: Plane, x: float, y: float, z: float, about: float) -> Row:
     """Return ``a(tau).x - b(tau)`` as a polynomial of tau; of a way, ``about`` = 0, without b."""
     a, b, c, d = p
@@ -68,32 +63,70 @@ def along(p: Plane, x: float, y: float, z: float, about: float) -> Row:
 
 
 @lane
-def fan(p: Plane, rays: Floats, ox: float, oy: float, oz: float, point: float) -> Fan:
-    """Write ``a.(o + w d) - b`` of every ray as C p(w) + (U + i V + j W) q(w).
+def write_row(row: Row, into: Floats, at: int) -> None:
+    """Write seven coefficients side by side."""
+    into[at], into[at + 1], into[at + 2], into[at + 3] = row[0], row[1], row[2], row[3]
+    into[at + 4], into[at + 5], into[at + 6] = row[4], row[5], row[6]
 
-    Rays from one point share what belongs to their origin, C, with p = 1 and q = w; parallel ones
-    what belongs to their direction, with p = w and q = 1.
+
+@lane
+def read_row(source: Floats, at: int) -> Row:
+    """Read what :func:`write_row` wrote."""
+    return (
+        source[at],
+        source[at + 1],
+        source[at + 2],
+        source[at + 3],
+        source[at + 4],
+        source[at + 5],
+        source[at + 6],
+    )
+
+
+@lane_loop
+def spread(
+    polynomials: Floats, k: int, rays: Floats, ox: float, oy: float, oz: float, fans: Floats
+) -> None:
+    """Write ``a.(o + w d) - b`` of F, x and y and every ray as C p(w) + (U + i V + j W) q(w).
+
+    ``rays`` is (6, 3): origin, its steps to the next row and column, direction, its steps; the
+    origin is taken from (ox, oy, oz), about the segment. Rays from one point share what belongs to
+    their origin, C, with p = 1 and q = w; parallel ones what belongs to their direction, with
+    p = w and q = 1. The last number is 1 for the former and 0 for the latter.
     """
+    steps = abs(rays[1, 0]) + abs(rays[1, 1]) + abs(rays[1, 2])
+    steps += abs(rays[2, 0]) + abs(rays[2, 1]) + abs(rays[2, 2])
+    point = 1.0 if steps == 0.0 else 0.0
     bundle = 1.0 - point
     dx, dy, dz = rays[3, 0], rays[3, 1], rays[3, 2]
+    cx, cy, cz = point * ox + bundle * dx, point * oy + bundle * dy, point * oz + bundle * dz
+    ux, uy, uz = point * dx + bundle * ox, point * dy + bundle * oy, point * dz + bundle * oz
+    vx, vy, vz = rays[1, 0] + rays[4, 0], rays[1, 1] + rays[4, 1], rays[1, 2] + rays[4, 2]
+    wx, wy, wz = rays[2, 0] + rays[5, 0], rays[2, 1] + rays[5, 1], rays[2, 2] + rays[5, 2]
+    for n in range(3):
+        p, at = plane(polynomials, k, 4 * n), 28 * n
+        write_row(along(p, cx, cy, cz, point), fans, at)
+        write_row(along(p, ux, uy, uz, bundle), fans, at + 7)
+        write_row(along(p, vx, vy, vz, 0.0), fans, at + 14)
+        write_row(along(p, wx, wy, wz, 0.0), fans, at + 21)
+    fans[3 * 28] = point
+
+
+@lane
+def fan(fans: Floats, n: int) -> Fan:
+    """Read the fan of F, x or y, number n of what :func:`spread` wrote."""
     return (
-        along(
-            p,
-            point * ox + bundle * dx,
-            point * oy + bundle * dy,
-            point * oz + bundle * dz,
-            point,
-        ),
-        along(
-            p,
-            point * dx + bundle * ox,
-            point * dy + bundle * oy,
-            point * dz + bundle * oz,
-            bundle,
-        ),
-        along(p, rays[1, 0] + rays[4, 0], rays[1, 1] + rays[4, 1], rays[1, 2] + rays[4, 2], 0.0),
-        along(p, rays[2, 0] + rays[5, 0], rays[2, 1] + rays[5, 1], rays[2, 2] + rays[5, 2], 0.0),
+        read_row(fans, 28 * n),
+        read_row(fans, 28 * n + 7),
+        read_row(fans, 28 * n + 14),
+        read_row(fans, 28 * n + 21),
     )
+
+
+@lane
+def from_one_point(fans: Floats) -> float:
+    """Return 1 where all rays share their origin, 0 where they share their direction instead."""
+    return fans[3 * 28]
 
 
 @lane

@@ -17,7 +17,6 @@ from phantom.kernels.jets import (
     mixed,
     nearer_tau,
     own,
-    plane,
     value,
     value_and_slope,
 )
@@ -63,19 +62,11 @@ def away_from_zero(d: float) -> float:
 
 
 @lane_loop
-def evaluate_circle(
-    S: Floats, n: int, rays: Floats, ox: float, oy: float, oz: float, polynomials: Floats, k: int
-) -> None:
-    """Write G, its slope and tau at ``AT_W`` of n lanes, for a circle.
-
-    ``rays`` is (6, 3): origin, its steps to the next row and column, direction, its steps; the
-    origin is taken from (ox, oy, oz), about the segment.
-    """
-    point = from_one_point(rays)
+def evaluate_circle(S: Floats, n: int, fans: Floats) -> None:
+    """Write G, its slope and tau at ``AT_W`` of n lanes, for a circle."""
+    point = from_one_point(fans)
     bundle = 1.0 - point
-    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
-    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
-    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
+    F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
     for m in range(n):
         i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
         p, q = point + bundle * w, point * w + bundle
@@ -97,15 +88,11 @@ def evaluate_circle(
 
 
 @lane_loop
-def evaluate_jets(
-    S: Floats, n: int, rays: Floats, ox: float, oy: float, oz: float, polynomials: Floats, k: int
-) -> None:
+def evaluate_jets(S: Floats, n: int, fans: Floats) -> None:
     """Write F and phi with their slopes along tau and w; ``TAU`` is where they are taken."""
-    point = from_one_point(rays)
+    point = from_one_point(fans)
     bundle = 1.0 - point
-    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
-    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
-    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
+    F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
     for m in range(n):
         i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
         p, q = point + bundle * w, point * w + bundle
@@ -258,26 +245,18 @@ def pad(S: Floats, n: int) -> int:
 
 
 @lane_loop
-def evaluate_lanes(
-    S: Floats,
-    n: int,
-    rays: Floats,
-    ox: float,
-    oy: float,
-    oz: float,
-    polynomials: Floats,
-    k: int,
-    table: int,
-    tables: Tables,
-) -> None:
-    """Write G, its slope along w and tau at ``AT_W`` of n lanes; ``AT_T`` guesses tau."""
+def evaluate_lanes(S: Floats, n: int, fans: Floats, table: int, tables: Tables) -> None:
+    """Write G, its slope along w and tau at ``AT_W`` of n lanes; ``AT_T`` guesses tau.
+
+    ``fans`` are the segment's polynomials along the rays (:func:`phantom.kernels.jets.spread`).
+    """
     if n == 0:
         return
     full = pad(S, n)
     if table < 0:
-        evaluate_circle(S, full, rays, ox, oy, oz, polynomials, k)
+        evaluate_circle(S, full, fans)
         return
-    evaluate_jets(S, full, rays, ox, oy, oz, polynomials, k)
+    evaluate_jets(S, full, fans)
     look_up(S, full, table, tables)
     join_jets(S, full)
 

@@ -118,9 +118,6 @@ def newton(S: Floats, n: int) -> None:
 @inner
 def polish_lanes(
     n: int,
-    ox: float,
-    oy: float,
-    oz: float,
     scene: Scene,
     k: int,
     enough: float,
@@ -129,14 +126,14 @@ def polish_lanes(
     columns: int,
 ) -> int:
     """Find the one root in each of n intervals and record it; return how many records there are."""
-    S, rays, pixels, where, signs = held.lanes, held.rays, held.pixels, held.where, held.signs
+    S, pixels, where, signs = held.lanes, held.pixels, held.where, held.signs
     table = scene.segment_table[k]
     first_guess(S, n)
     for step in range(_HALVINGS):
         if n == 0:
             break
         aim(S, n)
-        evaluate_lanes(S, n, rays, ox, oy, oz, scene.polynomials, k, table, scene.tables)
+        evaluate_lanes(S, n, held.fans, table, scene.tables)
         if step == 0:
             first_step(S, n)
             continue

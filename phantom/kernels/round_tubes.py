@@ -19,7 +19,6 @@ from phantom.kernels.jets import (
     from_one_point,
     mixed,
     own,
-    plane,
     two_slopes,
     value,
     value_and_slope,
@@ -64,23 +63,16 @@ _ON_PLANE = 1e-6
 def probe(
     S: Floats,
     n: int,
-    rays: Floats,
-    ox: float,
-    oy: float,
-    oz: float,
-    polynomials: Floats,
-    k: int,
+    fans: Floats,
 ) -> None:
     """Look at G once on each of n intervals, at ``AT_W``.
 
     ``TAU``, ``G`` and ``SLOPE`` are what was found, ``HT`` and ``HY`` the first two derivatives of
     tau along the ray, and ``HX``, ``XV`` and ``YV`` the next three of G, the last one roughly.
     """
-    point = from_one_point(rays)
+    point = from_one_point(fans)
     bundle = 1.0 - point
-    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
-    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
-    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
+    F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
     for m in range(n):
         i, j, w = S[I + m], S[J + m], S[AT_W + m]
         p, q = point + bundle * w, point * w + bundle
@@ -238,19 +230,12 @@ def second_look(
 def chords(
     S: Floats,
     n: int,
-    rays: Floats,
-    ox: float,
-    oy: float,
-    oz: float,
-    polynomials: Floats,
-    k: int,
+    fans: Floats,
     enough: float,
 ) -> None:
     """Write both ends of n chords into ``FV`` and ``FT``, and whether they are good into ``FW``."""
-    point = from_one_point(rays)
-    F = fan(plane(polynomials, k, 0), rays, ox, oy, oz, point)
-    X = fan(plane(polynomials, k, 4), rays, ox, oy, oz, point)
-    Y = fan(plane(polynomials, k, 8), rays, ox, oy, oz, point)
+    point = from_one_point(fans)
+    F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
     for m in range(n):
         i, j, a, b = S[RI + m], S[RJ + m], S[RA + m], S[RB + m]
         w, t, turn, turning = S[RW + m], S[RT + m], S[RP + m], S[RE + m]

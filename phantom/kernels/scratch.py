@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from phantom.compiled.layout import CELLS, Scene
+from phantom.kernels.jets import FANS
 from phantom.kernels.lanes import LANES, ROWS, STRIDE, TILE_COLUMNS
 from phantom.kernels.verdicts import BLOCKS, SIZES
 
@@ -30,6 +31,7 @@ class Scratch(NamedTuple):
     rays: Floats  # (6, 3) of the tile
     middle: Floats  # (3,) origin of a segment
     knots: Floats  # (n, 6) section planes along the rays
+    fans: Floats  # (FANS,) a segment's polynomials along the rays
     slabs: Floats  # (3, 7) sides of a segment's box along the rays, half its width
     beam: Floats  # (10,) one ray in a segment's cells; a plane along the rays
     cells: Floats  # (CELLS, CELLS, 2) of one segment, along the rays of a tile
@@ -72,6 +74,7 @@ def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
         rays=np.empty((6, 3)),
         middle=np.empty(3),
         knots=np.empty((segments + 1, 6)),
+        fans=np.empty(FANS),
         slabs=np.empty((3, 7)),
         beam=np.empty(10),
         cells=np.empty((CELLS, CELLS, 2)),

@@ -24,17 +24,17 @@ TENSOR = numba.types.Array(numba.float64, 3, "C", readonly=False)
 LOOPS = {
     "evaluate": (
         lanes.evaluate_circle,
-        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
+        (FLOATS, INT, FLOATS),
         {"vfmadd": 120, "vdivpd": 3},
     ),
     "evaluate tables": (
         lanes.evaluate_jets,
-        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
+        (FLOATS, INT, FLOATS),
         {"vfmadd": 120, "vdivpd": 2},
     ),
     "one look": (
         round_tubes.probe,
-        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT),
+        (FLOATS, INT, FLOATS),
         {"vfmadd": 120, "vdivpd": 2},
     ),
     "judge one look": (
@@ -44,7 +44,7 @@ LOOPS = {
     ),
     "both ends": (
         round_tubes.chords,
-        (FLOATS, INT, MATRIX, FLOAT, FLOAT, FLOAT, TENSOR, INT, FLOAT),
+        (FLOATS, INT, FLOATS, FLOAT),
         {"vfmadd": 250, "vdivpd": 4, "vsqrtpd": 1},
     ),
     "collect": (
