@@ -87,12 +87,12 @@ def read_row(source: Floats, at: int) -> Row:
 def spread(
     polynomials: Floats, k: int, rays: Floats, ox: float, oy: float, oz: float, fans: Floats
 ) -> None:
-    """Write ``a.(o + w d) - b`` of F, x and y and every ray as C p(w) + (U + i V + j W) q(w).
+    """Write ``a.(o + w d) - b`` of F, x and y and every ray as C + w (U + i V + j W).
 
     ``rays`` is (6, 3): origin, its steps to the next row and column, direction, its steps; the
     origin is taken from (ox, oy, oz), about the segment. Rays from one point share what belongs to
-    their origin, C, with p = 1 and q = w; parallel ones what belongs to their direction, with
-    p = w and q = 1. The last number is 1 for the former and 0 for the latter.
+    their origin, C; parallel ones what belongs to their direction, and w stands before it instead.
+    The last number is 1 for the former and 0 for the latter.
     """
     steps = abs(rays[1, 0]) + abs(rays[1, 1]) + abs(rays[1, 2])
     steps += abs(rays[2, 0]) + abs(rays[2, 1]) + abs(rays[2, 2])
@@ -124,9 +124,9 @@ def fan(fans: Floats, n: int) -> Fan:
 
 
 @lane
-def from_one_point(fans: Floats) -> float:
-    """Return 1 where all rays share their origin, 0 where they share their direction instead."""
-    return fans[3 * 28]
+def from_one_point(fans: Floats) -> bool:
+    """Tell whether all rays share their origin, not their direction."""
+    return fans[3 * 28] != 0.0
 
 
 @lane
@@ -141,20 +141,6 @@ def own(f: Fan, i: float, j: float) -> Row:
         u[4] + i * v[4] + j * w[4],
         u[5] + i * v[5] + j * w[5],
         u[6] + i * v[6] + j * w[6],
-    )
-
-
-@lane
-def mixed(c: Row, d: Row, p: float, q: float) -> Row:
-    """Return p c + q d."""
-    return (
-        p * c[0] + q * d[0],
-        p * c[1] + q * d[1],
-        p * c[2] + q * d[2],
-        p * c[3] + q * d[3],
-        p * c[4] + q * d[4],
-        p * c[5] + q * d[5],
-        p * c[6] + q * d[6],
     )
 
 
@@ -203,6 +189,43 @@ def two_slopes(c: Row, t: float) -> tuple[float, float, float]:
     h = h * t + s
     s = s * t + v
     return v * t + c[0], s, 2.0 * h
+
+
+@lane
+def mixed(point: bool, c: Row, u: Row, w: float) -> Row:
+    """Return c + w u for rays from one point, u + w c for parallel ones."""
+    a, b = (c, u) if point else (u, c)
+    return (
+        a[0] + w * b[0],
+        a[1] + w * b[1],
+        a[2] + w * b[2],
+        a[3] + w * b[3],
+        a[4] + w * b[4],
+        a[5] + w * b[5],
+        a[6] + w * b[6],
+    )
+
+
+@lane
+def level(point: bool, c: Row, u: Row, w: float, t: float) -> float:
+    """Return :func:`mixed` at t."""
+    a, b = value(c, t), value(u, t)
+    return a + w * b if point else b + w * a
+
+
+@lane
+def rate(point: bool, c: Row, u: Row, t: float) -> float:
+    """Return the slope of :func:`mixed` along w, at t."""
+    return value(u, t) if point else value(c, t)
+
+
+@lane
+def jet(point: bool, c: Row, u: Row, w: float, t: float) -> tuple[float, float, float, float]:
+    """Return :func:`mixed` at t, its slopes along tau and w, and the mixed one."""
+    (a, at), (b, bt) = value_and_slope(c, t), value_and_slope(u, t)
+    if point:
+        return a + w * b, at + w * bt, b, bt
+    return b + w * a, bt + w * at, a, at
 
 
 @lane

@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 from phantom.compiled.layout import Tables
 from phantom.kernels.compiling import lane, lane_loop
 from phantom.kernels.jets import (
+    Fan,
     fan,
     from_one_point,
+    jet,
     mixed,
     nearer_tau,
     own,
-    value,
+    rate,
     value_and_slope,
 )
 
@@ -61,51 +63,62 @@ def away_from_zero(d: float) -> float:
     return d if abs(d) > 1e-90 else 1e-90
 
 
+@lane
+def at_circle(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
+    """Do what :func:`evaluate_circle` does for one lane."""
+    i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
+    r = own(F, i, j)
+    f = mixed(point, F[0], r, w)
+    t = nearer_tau(f, nearer_tau(f, t))
+    fv, ft = value_and_slope(f, t)
+    over = 1.0 / ft
+    rest, turn = fv * over, rate(point, F[0], r, t) * over
+    xv, xt, xw, _ = jet(point, X[0], own(X, i, j), w, t)
+    yv, yt, yw, _ = jet(point, Y[0], own(Y, i, j), w, t)
+    gt = 2.0 * (xv * xt + yv * yt)
+    S[G + m] = xv * xv + yv * yv - 1.0 - gt * rest
+    S[SLOPE + m] = 2.0 * (xv * xw + yv * yw) - gt * turn
+    S[TAU + m] = t - rest
+
+
 @lane_loop
 def evaluate_circle(S: Floats, n: int, fans: Floats) -> None:
     """Write G, its slope and tau at ``AT_W`` of n lanes, for a circle."""
-    point = from_one_point(fans)
-    bundle = 1.0 - point
     F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
-    for m in range(n):
-        i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
-        p, q = point + bundle * w, point * w + bundle
-        r = own(F, i, j)
-        f = mixed(F[0], r, p, q)
-        t = nearer_tau(f, nearer_tau(f, t))
-        fv, ft = value_and_slope(f, t)
-        over = 1.0 / ft
-        rest = fv * over
-        turn = (bundle * value(F[0], t) + point * value(r, t)) * over
-        (c, ct), (u, ut) = value_and_slope(X[0], t), value_and_slope(own(X, i, j), t)
-        xv, xt, xw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
-        (c, ct), (u, ut) = value_and_slope(Y[0], t), value_and_slope(own(Y, i, j), t)
-        yv, yt, yw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
-        gt = 2.0 * (xv * xt + yv * yt)
-        S[G + m] = xv * xv + yv * yv - 1.0 - gt * rest
-        S[SLOPE + m] = 2.0 * (xv * xw + yv * yw) - gt * turn
-        S[TAU + m] = t - rest
+    if from_one_point(fans):
+        for m in range(n):
+            at_circle(S, m, F, X, Y, True)
+    else:
+        for m in range(n):
+            at_circle(S, m, F, X, Y, False)
+
+
+@lane
+def at_contour(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
+    """Do what :func:`evaluate_jets` does for one lane."""
+    i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
+    r = own(F, i, j)
+    f = mixed(point, F[0], r, w)
+    t = nearer_tau(f, nearer_tau(f, t))
+    fv, ft = value_and_slope(f, t)
+    S[TAU + m], S[FV + m], S[FT + m] = t, fv, ft
+    S[FW + m] = rate(point, F[0], r, t)
+    v, vt, vw, _ = jet(point, X[0], own(X, i, j), w, t)
+    S[XV + m], S[XT + m], S[XW + m] = v, vt, vw
+    v, vt, vw, _ = jet(point, Y[0], own(Y, i, j), w, t)
+    S[YV + m], S[YT + m], S[YW + m] = v, vt, vw
 
 
 @lane_loop
 def evaluate_jets(S: Floats, n: int, fans: Floats) -> None:
     """Write F and phi with their slopes along tau and w; ``TAU`` is where they are taken."""
-    point = from_one_point(fans)
-    bundle = 1.0 - point
     F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
-    for m in range(n):
-        i, j, w, t = S[AT_I + m], S[AT_J + m], S[AT_W + m], S[AT_T + m]
-        p, q = point + bundle * w, point * w + bundle
-        r = own(F, i, j)
-        f = mixed(F[0], r, p, q)
-        t = nearer_tau(f, nearer_tau(f, t))
-        fv, ft = value_and_slope(f, t)
-        S[TAU + m], S[FV + m], S[FT + m] = t, fv, ft
-        S[FW + m] = bundle * value(F[0], t) + point * value(r, t)
-        (c, ct), (u, ut) = value_and_slope(X[0], t), value_and_slope(own(X, i, j), t)
-        S[XV + m], S[XT + m], S[XW + m] = p * c + q * u, p * ct + q * ut, bundle * c + point * u
-        (c, ct), (u, ut) = value_and_slope(Y[0], t), value_and_slope(own(Y, i, j), t)
-        S[YV + m], S[YT + m], S[YW + m] = p * c + q * u, p * ct + q * ut, bundle * c + point * u
+    if from_one_point(fans):
+        for m in range(n):
+            at_contour(S, m, F, X, Y, True)
+    else:
+        for m in range(n):
+            at_contour(S, m, F, X, Y, False)
 
 
 @lane

@@ -17,10 +17,11 @@ from phantom.kernels.jets import (
     Row,
     fan,
     from_one_point,
+    jet,
+    level,
     mixed,
     own,
     two_slopes,
-    value,
     value_and_slope,
 )
 from phantom.kernels.lanes import (
@@ -59,55 +60,55 @@ _ON_PLANE = 1e-6
 """What may be left of F, in tau, where the sign of G at an interval's end is read."""
 
 
+@lane
+def look(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
+    """Do what :func:`probe` does for one lane."""
+    i, j, w = S[I + m], S[J + m], S[AT_W + m]
+    r, xr, yr = own(F, i, j), own(X, i, j), own(Y, i, j)
+    f = mixed(point, F[0], r, w)
+    # F falls from one end of the segment to the other, nearly straight.
+    even, odd = f[0] + f[2] + f[4] + f[6], f[1] + f[3] + f[5]
+    over = 1.0 / odd
+    t = min(max(-even * over, -1.0), 1.0)
+    for _ in range(2):
+        fv, ft = value_and_slope(f, t)
+        over *= 2.0 - ft * over
+        t = min(max(t - fv * over, -1.0), 1.0)
+    fv, ft, ftt = two_slopes(f, t)
+    fw, fwt = value_and_slope(r if point else F[0], t)
+    xv, xt, xtt = two_slopes(mixed(point, X[0], xr, w), t)
+    xw, xwt = value_and_slope(xr if point else X[0], t)
+    yv, yt, ytt = two_slopes(mixed(point, Y[0], yr, w), t)
+    yw, ywt = value_and_slope(yr if point else Y[0], t)
+    over = 1.0 / ft
+    rest, turn = fv * over, -fw * over
+    turning = -turn * (ftt * turn + 2.0 * fwt) * over
+    x1, y1 = xw + xt * turn, yw + yt * turn
+    x2 = turn * (xtt * turn + 2.0 * xwt) + xt * turning
+    y2 = turn * (ytt * turn + 2.0 * ywt) + yt * turning
+    xv, yv = xv - xt * rest, yv - yt * rest
+    S[TAU + m], S[G + m] = t - rest, xv * xv + yv * yv - 1.0
+    S[SLOPE + m] = 2.0 * (xv * x1 + yv * y1)
+    S[HT + m], S[HY + m] = turn, turning
+    S[HX + m] = 2.0 * (x1 * x1 + y1 * y1 + xv * x2 + yv * y2)
+    S[XV + m] = 6.0 * (x1 * x2 + y1 * y2)
+    S[YV + m] = 6.0 * (x2 * x2 + y2 * y2)
+
+
 @lane_loop
-def probe(
-    S: Floats,
-    n: int,
-    fans: Floats,
-) -> None:
+def probe(S: Floats, n: int, fans: Floats) -> None:
     """Look at G once on each of n intervals, at ``AT_W``.
 
     ``TAU``, ``G`` and ``SLOPE`` are what was found, ``HT`` and ``HY`` the first two derivatives of
     tau along the ray, and ``HX``, ``XV`` and ``YV`` the next three of G, the last one roughly.
     """
-    point = from_one_point(fans)
-    bundle = 1.0 - point
     F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
-    for m in range(n):
-        i, j, w = S[I + m], S[J + m], S[AT_W + m]
-        p, q = point + bundle * w, point * w + bundle
-        r = own(F, i, j)
-        f = mixed(F[0], r, p, q)
-        # F falls from one end of the segment to the other, nearly straight.
-        even, odd = f[0] + f[2] + f[4] + f[6], f[1] + f[3] + f[5]
-        over = 1.0 / odd
-        t = min(max(-even * over, -1.0), 1.0)
-        for _ in range(2):
-            fv, ft = value_and_slope(f, t)
-            over *= 2.0 - ft * over
-            t = min(max(t - fv * over, -1.0), 1.0)
-        fv, ft, ftt = two_slopes(f, t)
-        (c, ct), (u, ut) = value_and_slope(F[0], t), value_and_slope(r, t)
-        fw, fwt = bundle * c + point * u, bundle * ct + point * ut
-        (c, ct, ctt), (u, ut, utt) = two_slopes(X[0], t), two_slopes(own(X, i, j), t)
-        xv, xt, xtt = p * c + q * u, p * ct + q * ut, p * ctt + q * utt
-        xw, xwt = bundle * c + point * u, bundle * ct + point * ut
-        (c, ct, ctt), (u, ut, utt) = two_slopes(Y[0], t), two_slopes(own(Y, i, j), t)
-        yv, yt, ytt = p * c + q * u, p * ct + q * ut, p * ctt + q * utt
-        yw, ywt = bundle * c + point * u, bundle * ct + point * ut
-        over = 1.0 / ft
-        rest, turn = fv * over, -fw * over
-        turning = -turn * (ftt * turn + 2.0 * fwt) * over
-        x1, y1 = xw + xt * turn, yw + yt * turn
-        x2 = turn * (xtt * turn + 2.0 * xwt) + xt * turning
-        y2 = turn * (ytt * turn + 2.0 * ywt) + yt * turning
-        xv, yv = xv - xt * rest, yv - yt * rest
-        g, slope = xv * xv + yv * yv - 1.0, 2.0 * (xv * x1 + yv * y1)
-        S[TAU + m], S[G + m], S[SLOPE + m] = t - rest, g, slope
-        S[HT + m], S[HY + m] = turn, turning
-        S[HX + m] = 2.0 * (x1 * x1 + y1 * y1 + xv * x2 + yv * y2)
-        S[XV + m] = 6.0 * (x1 * x2 + y1 * y2)
-        S[YV + m] = 6.0 * (x2 * x2 + y2 * y2)
+    if from_one_point(fans):
+        for m in range(n):
+            look(S, m, F, X, Y, True)
+    else:
+        for m in range(n):
+            look(S, m, F, X, Y, False)
 
 
 @lane
@@ -146,7 +147,7 @@ def first_look(
     fr: Row,
     xr: Row,
     yr: Row,
-    point: float,
+    point: bool,
     w: float,
     tau: float,
 ) -> Jet:
@@ -154,18 +155,14 @@ def first_look(
 
     ``fr``, ``xr`` and ``yr`` are what the ray has of its own.
     """
-    bundle = 1.0 - point
     t = min(max(tau, -1.0), 1.0)
-    p, q = point + bundle * w, point * w + bundle
-    (c, ct), (u, ut) = value_and_slope(F[0], t), value_and_slope(fr, t)
-    over = 1.0 / (p * ct + q * ut)
-    off, turn = (p * c + q * u) * over, -(bundle * c + point * u) * over
-    turn += off * (bundle * ct + point * ut) * over
+    fv, ft, fw, fwt = jet(point, F[0], fr, w, t)
+    over = 1.0 / ft
+    off = fv * over
+    turn = (off * fwt - fw) * over
     t = min(max(t - off, -1.0), 1.0)
-    (c, ct), (u, ut) = value_and_slope(X[0], t), value_and_slope(xr, t)
-    xv, xt, xw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
-    (c, ct), (u, ut) = value_and_slope(Y[0], t), value_and_slope(yr, t)
-    yv, yt, yw = p * c + q * u, p * ct + q * ut, bundle * c + point * u
+    xv, xt, xw, _ = jet(point, X[0], xr, w, t)
+    yv, yt, yw, _ = jet(point, Y[0], yr, w, t)
     slope = 2.0 * (xv * xw + yv * yw) + 2.0 * (xv * xt + yv * yt) * turn
     return w, t, xv * xv + yv * yv - 1.0, 1.0 / slope, turn, over, xt, yt
 
@@ -178,8 +175,8 @@ def second_look(
     fr: Row,
     xr: Row,
     yr: Row,
-    point: float,
-    jet: Jet,
+    point: bool,
+    seen: Jet,
     low: float,
     high: float,
     rising: bool,
@@ -192,8 +189,7 @@ def second_look(
     Returns it, or that end where G is still negative there, and whether it is good enough.
     ``bend`` is about G'' at the first look and ``turning`` about the second derivative of tau.
     """
-    w, t, g, flat, turn, over, xt, yt = jet
-    bundle = 1.0 - point
+    w, t, g, flat, turn, over, xt, yt = seen
     end = high if rising else low
     # The first step is Chebyshev's, of third order; where an interval ends long before its root
     # the bend would turn it around.
@@ -203,9 +199,9 @@ def second_look(
     moved = following - w
     turned = (turn + 0.5 * turning * moved) * moved
     at = min(max(t + turned, -1.0), 1.0)
-    p, q = point + bundle * following, point * following + bundle
-    xv, yv = p * value(X[0], at) + q * value(xr, at), p * value(Y[0], at) + q * value(yr, at)
-    rest = (p * value(F[0], at) + q * value(fr, at)) * over
+    xv = level(point, X[0], xr, following, at)
+    yv = level(point, Y[0], yr, following, at)
+    rest = level(point, F[0], fr, following, at) * over
     g = xv * xv + yv * yv - 1.0 - 2.0 * (xv * xt + yv * yt) * rest
     # The second is Newton's, with the slope of the first and what the bend has made of it: that is
     # 1 / flat (1 + change), turned over by two steps that need no division.
@@ -226,36 +222,38 @@ def second_look(
     return (end if beyond else root), fine
 
 
+@lane
+def chord(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool, enough: float) -> None:
+    """Do what :func:`chords` does for one lane."""
+    i, j, a, b = S[RI + m], S[RJ + m], S[RA + m], S[RB + m]
+    w, t, turn, turning = S[RW + m], S[RT + m], S[RP + m], S[RE + m]
+    g, slope, bend, third, fourth = S[RGA + m], S[RS + m], S[RC + m], S[YT + m], S[YW + m]
+    fr, xr, yr = own(F, i, j), own(X, i, j), own(Y, i, j)
+    before, behind = both_ways(g, slope, bend, third, fourth)
+    before, behind = max(before, a - w), min(behind, b - w)
+    # Both ends side by side: the processor does the one while the other waits.
+    v, u = min(max(w + before, a), w), min(max(w + behind, w), b)
+    at = t + (turn + 0.5 * turning * before) * before
+    one = first_look(F, X, Y, fr, xr, yr, point, v, at)
+    at = t + (turn + 0.5 * turning * behind) * behind
+    other = first_look(F, X, Y, fr, xr, yr, point, u, at)
+    curved = bend + (third + 0.5 * fourth * before) * before
+    entry, sure = second_look(F, X, Y, fr, xr, yr, point, one, a, w, False, curved, turning, enough)
+    curved = bend + (third + 0.5 * fourth * behind) * behind
+    exit_, certain = second_look(
+        F, X, Y, fr, xr, yr, point, other, w, b, True, curved, turning, enough
+    )
+    S[FV + m], S[FT + m] = entry, exit_
+    S[FW + m] = 1.0 if sure & certain else 0.0
+
+
 @lane_loop
-def chords(
-    S: Floats,
-    n: int,
-    fans: Floats,
-    enough: float,
-) -> None:
+def chords(S: Floats, n: int, fans: Floats, enough: float) -> None:
     """Write both ends of n chords into ``FV`` and ``FT``, and whether they are good into ``FW``."""
-    point = from_one_point(fans)
     F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
-    for m in range(n):
-        i, j, a, b = S[RI + m], S[RJ + m], S[RA + m], S[RB + m]
-        w, t, turn, turning = S[RW + m], S[RT + m], S[RP + m], S[RE + m]
-        g, slope, bend, third, fourth = S[RGA + m], S[RS + m], S[RC + m], S[YT + m], S[YW + m]
-        fr, xr, yr = own(F, i, j), own(X, i, j), own(Y, i, j)
-        before, behind = both_ways(g, slope, bend, third, fourth)
-        before, behind = max(before, a - w), min(behind, b - w)
-        # Both ends side by side: the processor does the one while the other waits.
-        v, u = min(max(w + before, a), w), min(max(w + behind, w), b)
-        at = t + (turn + 0.5 * turning * before) * before
-        one = first_look(F, X, Y, fr, xr, yr, point, v, at)
-        at = t + (turn + 0.5 * turning * behind) * behind
-        other = first_look(F, X, Y, fr, xr, yr, point, u, at)
-        curved = bend + (third + 0.5 * fourth * before) * before
-        entry, sure = second_look(
-            F, X, Y, fr, xr, yr, point, one, a, w, False, curved, turning, enough
-        )
-        curved = bend + (third + 0.5 * fourth * behind) * behind
-        exit_, certain = second_look(
-            F, X, Y, fr, xr, yr, point, other, w, b, True, curved, turning, enough
-        )
-        S[FV + m], S[FT + m] = entry, exit_
-        S[FW + m] = 1.0 if sure & certain else 0.0
+    if from_one_point(fans):
+        for m in range(n):
+            chord(S, m, F, X, Y, True, enough)
+    else:
+        for m in range(n):
+            chord(S, m, F, X, Y, False, enough)
