@@ -137,14 +137,16 @@ def _form(shape: QuadricShape, center: Floats) -> Floats:
 
 
 def _tables(fixed: list[StarTable], changing: list[ChangingTable]) -> Tables:
-    edges, buckets = [np.zeros(0)], [np.zeros(0)]
+    edges: list[Floats] = [np.zeros(0)]
+    buckets: list[Floats] = [np.zeros(0)]
     cell_counts, bucket_counts, steps = [], [], []
     first = 0
     tables: list[StarTable | ChangingTable] = [*fixed, *changing]
     for table in tables:
         count, most = _buckets(table.edges)
         marks = 8.0 * np.arange(count) / count
-        buckets.append(first + np.searchsorted(table.edges, marks, side="right") - 1.0)
+        cells = np.searchsorted(table.edges, marks, side="right") - 1
+        buckets.append((first + cells).astype(np.float64))
         edges.append(table.edges)
         cell_counts.append(len(table.cells))
         bucket_counts.append(count)

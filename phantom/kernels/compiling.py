@@ -28,7 +28,7 @@ from phantom.kernels.registers import LoopCompiler, WideCompiler
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
 
-_INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
+_INNER: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
 """Functions for kernels alone. They make no arrays, so nothing in them counts references: scenes of
 forty arrays are handed on, and counting each time would cost a tenth of an image's time."""
 

@@ -126,7 +126,7 @@ def fan(fans: Floats, n: int) -> Fan:
 @lane
 def from_one_point(fans: Floats) -> bool:
     """Tell whether all rays share their origin, not their direction."""
-    return fans[3 * 28] != 0.0
+    return bool(fans[3 * 28] != 0.0)
 
 
 @lane

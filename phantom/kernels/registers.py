@@ -18,21 +18,21 @@ WIDEST: Final = '"prefer-vector-width"="512"'
 """An attribute of LLVM's functions; processors without such registers take their own width."""
 
 
-class WideLower(Lower):  # type: ignore[misc]
+class WideLower(Lower):
     """Lowers a function as numba does, and asks for the widest registers in it."""
 
     def setup_function(self, fndesc: Any) -> None:
         """Begin the function, and mark it."""
-        super().setup_function(fndesc)
+        super().setup_function(fndesc)  # type: ignore[no-untyped-call]
         # llvmlite knows only attributes without a value, but writes down any.
         set.add(self.function.attributes, WIDEST)
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
-class WideLowering(BaseNativeLowering):  # type: ignore[misc]
+@register_pass(mutates_CFG=True, analysis_only=False)  # type: ignore[no-untyped-call]
+class WideLowering(BaseNativeLowering):
     """The last pass, with our lowering."""
 
-    _name = "wide_lowering"
+    _name = "wide_lowering"  # type: ignore[assignment]
 
     @property
     def lowering_class(self) -> type[Lower]:
@@ -40,17 +40,18 @@ class WideLowering(BaseNativeLowering):  # type: ignore[misc]
         return WideLower
 
 
-class WideCompiler(CompilerBase):  # type: ignore[misc]
+class WideCompiler(CompilerBase):
     """Numba's own pipeline, with our lowering in the place of its own."""
 
     def define_pipelines(self) -> list[Any]:
         """Return the passes."""
-        passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
-        wide = [
+        passes: Any = DefaultPassBuilder.define_nopython_pipeline(  # type: ignore[no-untyped-call]
+            self.state
+        )
+        passes.passes = [
             (WideLowering, told) if one is NativeLowering else (one, told)
             for one, told in passes.passes
         ]
-        passes.passes = wide
         passes.finalize()
         return [passes]
 

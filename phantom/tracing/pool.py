@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from threading import Lock, Thread
 from typing import TYPE_CHECKING
 
 from phantom.errors import CancelledError
@@ -37,7 +37,7 @@ def run_bands(
     Parameters
     ----------
     work
-        Does one band; it runs on several threads at once.
+        Does one band; it runs on several threads at once, the caller's among them.
     bands
         Half-open ranges.
     workers
@@ -45,42 +45,78 @@ def run_bands(
     cancelled
         Asked between bands; once it says yes nothing new is started.
     progress
-        Told after every band how many of how many units are done.
+        Told now and then, on the caller's thread, how many of how many units are done; last, all.
 
     Raises
     ------
     CancelledError
         Where ``cancelled`` said yes before the last band was started.
     """
-    total, done = sum(end - start for start, end in bands), 0
+    shift = _Shift(work, bands)
     count = max(1, min(workers or default_workers(), len(bands)))
-    pending: dict[Future[None], int] = {}
-    with ThreadPoolExecutor(count, thread_name_prefix="phantom") as pool:
-        left = iter(bands)
-        exhausted = False
+    threads = [Thread(target=shift.labour, name=f"phantom-{k}") for k in range(1, count)]
+    total, told = sum(end - start for start, end in bands), 0
+    try:
+        for thread in threads:
+            thread.start()
+        # The caller's own thread works too.
+        while not shift.over():
+            if cancelled is not None and cancelled():
+                raise CancelledError("the trace was cancelled")
+            shift.one()
+            if progress is not None:
+                told = shift.done
+                progress(told, total)
+    finally:
+        shift.stop()
+        for thread in threads:
+            if thread.ident is not None:
+                thread.join()
+    if shift.error is not None:
+        raise shift.error
+    if progress is not None and told < total:
+        progress(total, total)
+
+
+class _Shift:
+    """Bands that threads take one after the other."""
+
+    def __init__(self, work: Callable[[int, int], None], bands: Sequence[tuple[int, int]]) -> None:
+        self._work, self._bands = work, bands
+        self._next, self._lock = 0, Lock()
+        self.done = 0
+        self.error: BaseException | None = None
+
+    def over(self) -> bool:
+        """Tell whether nothing is left to begin."""
+        return self._next >= len(self._bands)
+
+    def stop(self) -> None:
+        """Begin nothing new."""
+        with self._lock:
+            self._next = len(self._bands)
+
+    def one(self) -> None:
+        """Do the next band, if there is one; what goes wrong stops all."""
+        with self._lock:
+            if self.over():
+                return
+            start, end = self._bands[self._next]
+            self._next += 1
         try:
-            while pending or not exhausted:
-                # Twice as many as threads wait, so that none idles while this one looks around.
-                while not exhausted and len(pending) < 2 * count:
-                    if cancelled is not None and cancelled():
-                        raise CancelledError("the trace was cancelled")
-                    band = next(left, None)
-                    if band is None:
-                        exhausted = True
-                    else:
-                        pending[pool.submit(work, *band)] = band[1] - band[0]
-                finished, _ = wait(pending, timeout=0.1, return_when=FIRST_COMPLETED)
-                if cancelled is not None and not finished and cancelled():
-                    raise CancelledError("the trace was cancelled")
-                for future in finished:
-                    done += pending.pop(future)
-                    future.result()
-                if progress is not None and finished:
-                    progress(done, total)
-        except BaseException:
-            for future in pending:
-                future.cancel()
-            raise
+            self._work(start, end)
+        except BaseException as error:
+            with self._lock:
+                self.error = self.error or error
+            self.stop()
+            return
+        with self._lock:
+            self.done += end - start
+
+    def labour(self) -> None:
+        """Do bands until nothing is left."""
+        while not self.over():
+            self.one()
 
 
 def cut_bands(total: int, size: int) -> list[tuple[int, int]]:
