@@ -26,7 +26,7 @@ from api.job import ACTIVE, OVER, TABLE, Job, job_of
 from api.problems import RefusedError
 from phantom.datasets import Run, make
 from phantom.datasets.checks import check, expected_bytes
-from phantom.datasets.ledger import Counts, DiskFullError
+from phantom.datasets.ledger import Counts, DiskFullError, HaltedError
 from phantom.datasets.opening import of_tree
 from phantom.errors import CancelledError, InvalidInputError, Problem
 from phantom.requests.limits import Limits
@@ -293,6 +293,9 @@ class Jobs:
             return
         except DiskFullError as error:
             self._wait_for_room(job, str(error), stop)
+        except HaltedError as error:
+            logger.warning("job %s: %s", job.id, error)
+            self._set(job.id, state="failed", problem=str(error), ended=time.time())
         except InvalidInputError as error:
             if any(problem.kind == "disk_too_small" for problem in error.problems):
                 self._wait_for_room(job, str(error), stop)

@@ -15,6 +15,7 @@ from api import jobs as api_jobs
 from api.app import create_app
 from api.settings import Settings
 from phantom.datasets import Run, make
+from phantom.datasets.ledger import HaltedError
 
 DESIGN = {
     "phantom": {"name": "sphere"},
@@ -145,6 +146,19 @@ def test_a_job_without_room_waits_and_goes_on(tmp_path, monkeypatch):
         full[0] = False
         assert _until_over(client, place)["state"] == "done"
         assert client.get(f"{place}/results").status_code == 200
+
+
+def test_a_job_whose_drive_fails_says_so(tmp_path, monkeypatch):
+    def making(*args, **given):
+        raise HaltedError("the ledger cannot be written: the drive is gone")
+
+    monkeypatch.setattr(api_jobs, "make", making)
+    with TestClient(create_app(Settings(jobs_folder=tmp_path / "jobs"))) as client:
+        job = _until_over(client, _post(client).headers["location"])
+    assert (job["state"], job["problem"]) == (
+        "failed",
+        "the ledger cannot be written: the drive is gone",
+    )
 
 
 @pytest.fixture

@@ -133,6 +133,8 @@ def test_an_interrupt_ends_with_130_and_leaves_what_is_finished(design, tmp_path
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        # Behind a shell's "&" interrupts are ignored, and children would ignore them too.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
     while process.poll() is None and len(list(folder.glob("train/*.mask.png"))) < 3:
         time.sleep(0.05)
