@@ -45,6 +45,7 @@ from phantom.kernels.lanes import (
     G,
     I,
     J,
+    at,
 )
 from phantom.kernels.round_tubes import chords, probe
 from phantom.kernels.scratch import Scratch
@@ -133,31 +134,51 @@ def glance(
             code = T[LOW + m]
             if code == INSIDE:
                 pixel = int(T[I + m]) * columns + int(T[J + m])
-                pixels[filled], where[filled], signs[filled] = pixel, T[A + m], 1.0
-                pixels[filled + 1], where[filled + 1], signs[filled + 1] = pixel, T[B + m], -1.0
+                pixels[at(0, filled)], where[at(0, filled)], signs[at(0, filled)] = (
+                    pixel,
+                    T[A + m],
+                    1.0,
+                )
+                pixels[at(1, filled)], where[at(1, filled)], signs[at(1, filled)] = (
+                    pixel,
+                    T[B + m],
+                    -1.0,
+                )
                 filled += 2
             elif code == HIT:
-                T[RI + hits], T[RJ + hits] = T[I + m], T[J + m]
-                T[RA + hits], T[RB + hits], T[RW + hits] = T[A + m], T[B + m], T[AT_W + m]
-                T[RT + hits], T[RP + hits], T[RGA + hits] = T[TAU + m], T[HT + m], T[G + m]
-                T[RS + hits], T[RC + hits], T[RE + hits] = T[SLOPE + m], T[HX + m], T[HY + m]
-                T[YT + hits], T[YW + hits] = T[XV + m], T[YV + m]
+                T[at(RI, hits)], T[at(RJ, hits)] = T[I + m], T[J + m]
+                T[at(RA, hits)], T[at(RB, hits)], T[at(RW, hits)] = T[A + m], T[B + m], T[AT_W + m]
+                T[at(RT, hits)], T[at(RP, hits)], T[at(RGA, hits)] = T[TAU + m], T[HT + m], T[G + m]
+                T[at(RS, hits)], T[at(RC, hits)], T[at(RE, hits)] = (
+                    T[SLOPE + m],
+                    T[HX + m],
+                    T[HY + m],
+                )
+                T[at(YT, hits)], T[at(YW, hits)] = T[XV + m], T[YV + m]
                 hits += 1
             elif code != MISS:
-                S[I + left], S[J + left] = T[I + m], T[J + m]
-                S[A + left], S[B + left] = T[A + m], T[B + m]
+                S[at(I, left)], S[at(J, left)] = T[I + m], T[J + m]
+                S[at(A, left)], S[at(B, left)] = T[A + m], T[B + m]
                 left += 1
         if hits == 0:
             continue
         chords(T, hits, held.fans, enough)
         for m in range(hits):
             if T[FW + m] == 0.0:
-                S[I + left], S[J + left] = T[RI + m], T[RJ + m]
-                S[A + left], S[B + left] = T[RA + m], T[RB + m]
+                S[at(I, left)], S[at(J, left)] = T[RI + m], T[RJ + m]
+                S[at(A, left)], S[at(B, left)] = T[RA + m], T[RB + m]
                 left += 1
                 continue
             pixel = int(T[RI + m]) * columns + int(T[RJ + m])
-            pixels[filled], where[filled], signs[filled] = pixel, T[FV + m], 1.0
-            pixels[filled + 1], where[filled + 1], signs[filled + 1] = pixel, T[FT + m], -1.0
+            pixels[at(0, filled)], where[at(0, filled)], signs[at(0, filled)] = (
+                pixel,
+                T[FV + m],
+                1.0,
+            )
+            pixels[at(1, filled)], where[at(1, filled)], signs[at(1, filled)] = (
+                pixel,
+                T[FT + m],
+                -1.0,
+            )
             filled += 2
     return left, filled

@@ -48,6 +48,7 @@ from phantom.kernels.lanes import (
     G,
     I,
     J,
+    at,
     evaluate_lanes,
 )
 from phantom.kernels.roots import polish_lanes
@@ -67,10 +68,10 @@ Floats = NDArray[np.float64]
 
 
 @lane_loop
-def ask(S: Floats, n: int, at: int, known: bool) -> None:
+def ask(S: Floats, n: int, end: int, known: bool) -> None:
     """Ask for G at one end of every interval; tau is about known at the other end or not."""
     for m in range(n):
-        S[AT_I + m], S[AT_J + m], S[AT_W + m] = S[I + m], S[J + m], S[at + m]
+        S[AT_I + m], S[AT_J + m], S[AT_W + m] = S[I + m], S[J + m], S[end + m]
         S[AT_T + m] = S[TA + m] if known else 0.0
 
 
@@ -95,16 +96,29 @@ def ask_between(S: Floats, n: int) -> None:
 
 
 @lane_loop
+def copy(S: Floats, source: int, to: int, n: int) -> None:
+    """Copy n numbers; a loop for each row is packed, one for all of them is not."""
+    for m in range(n):
+        S[at(to, m)] = S[at(source, m)]
+
+
+@lane_loop
 def halve(S: Floats, n: int) -> None:
     """Give each of n intervals that was split the end between, and add the other half behind."""
-    for m in range(n):
-        S[I + n + m], S[J + n + m] = S[I + m], S[J + m]
-        S[A + n + m], S[GA + n + m] = S[AT_W + m], S[G + m]
-        S[SA + n + m], S[TA + n + m] = S[SLOPE + m], S[TAU + m]
-        S[B + n + m], S[GB + n + m] = S[YB + m], S[YGB + m]
-        S[SB + n + m], S[TB + n + m] = S[YSB + m], S[YTB + m]
-    for m in range(n):
-        S[B + m], S[GB + m], S[SB + m], S[TB + m] = S[AT_W + m], S[G + m], S[SLOPE + m], S[TAU + m]
+    copy(S, I, I + n, n)
+    copy(S, J, J + n, n)
+    copy(S, AT_W, A + n, n)
+    copy(S, G, GA + n, n)
+    copy(S, SLOPE, SA + n, n)
+    copy(S, TAU, TA + n, n)
+    copy(S, YB, B + n, n)
+    copy(S, YGB, GB + n, n)
+    copy(S, YSB, SB + n, n)
+    copy(S, YTB, TB + n, n)
+    copy(S, AT_W, B, n)
+    copy(S, G, GB, n)
+    copy(S, SLOPE, SB, n)
+    copy(S, TAU, TB, n)
 
 
 @inner
@@ -161,12 +175,12 @@ def isolate(
             return -1
         for m in range(n):
             if T[GA + m] < 0.0:
-                pixels[filled] = int(T[I + m]) * columns + int(T[J + m])
-                where[filled], signs[filled] = T[A + m], 1.0
+                pixels[at(0, filled)] = int(T[I + m]) * columns + int(T[J + m])
+                where[at(0, filled)], signs[at(0, filled)] = T[A + m], 1.0
                 filled += 1
             if T[GB + m] < 0.0:
-                pixels[filled] = int(T[I + m]) * columns + int(T[J + m])
-                where[filled], signs[filled] = T[B + m], -1.0
+                pixels[at(0, filled)] = int(T[I + m]) * columns + int(T[J + m])
+                where[at(0, filled)], signs[at(0, filled)] = T[B + m], -1.0
                 filled += 1
         top = base + n
         while top > base:
@@ -194,16 +208,28 @@ def isolate(
             for m in range(n):
                 code = T[LOW + m]
                 if code == ROOT:
-                    S[RI + roots], S[RJ + roots], S[RT + roots] = T[I + m], T[J + m], T[TA + m]
-                    S[RA + roots], S[RGA + roots], S[RS + roots] = T[A + m], T[GA + m], T[SA + m]
-                    S[RB + roots], S[RW + roots], S[RP + roots] = T[B + m], T[GB + m], T[SB + m]
+                    S[at(RI, roots)], S[at(RJ, roots)], S[at(RT, roots)] = (
+                        T[I + m],
+                        T[J + m],
+                        T[TA + m],
+                    )
+                    S[at(RA, roots)], S[at(RGA, roots)], S[at(RS, roots)] = (
+                        T[A + m],
+                        T[GA + m],
+                        T[SA + m],
+                    )
+                    S[at(RB, roots)], S[at(RW, roots)], S[at(RP, roots)] = (
+                        T[B + m],
+                        T[GB + m],
+                        T[SB + m],
+                    )
                     roots += 1
                 elif code == SPLIT:
-                    T[I + halves], T[J + halves] = T[I + m], T[J + m]
-                    T[A + halves], T[GA + halves] = T[A + m], T[GA + m]
-                    T[SA + halves], T[TA + halves] = T[SA + m], T[TA + m]
-                    T[YB + halves], T[YGB + halves] = T[B + m], T[GB + m]
-                    T[YSB + halves], T[YTB + halves] = T[SB + m], T[TB + m]
+                    T[at(I, halves)], T[at(J, halves)] = T[I + m], T[J + m]
+                    T[at(A, halves)], T[at(GA, halves)] = T[A + m], T[GA + m]
+                    T[at(SA, halves)], T[at(TA, halves)] = T[SA + m], T[TA + m]
+                    T[at(YB, halves)], T[at(YGB, halves)] = T[B + m], T[GB + m]
+                    T[at(YSB, halves)], T[at(YTB, halves)] = T[SB + m], T[TB + m]
                     halves += 1
             if top + 2 * halves > HELD:
                 return -1

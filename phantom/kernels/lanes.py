@@ -55,6 +55,15 @@ ROWS = 53
 
 
 @lane
+def at(row: int, k: int) -> int:
+    """Return the place of lane k in a row, as a number without a sign.
+
+    A number with one may be negative, and each use of it as an index would be asked about that.
+    """
+    return np.uint64(row) + np.uint64(k)  # type: ignore[return-value]
+
+
+@lane
 def away_from_zero(d: float) -> float:
     """Return d, or something tiny: a slab that a ray runs along is left far away, or never.
 
@@ -329,6 +338,7 @@ def collect(
             S[LOW + m], S[HIGH + m] = a, b
         for m in range(j1 - j0):
             a, b = S[LOW + m], S[HIGH + m]
-            S[I + count], S[J + count], S[A + count], S[B + count] = i, left + m, a, b
+            S[at(I, count)], S[at(J, count)] = i, left + m
+            S[at(A, count)], S[at(B, count)] = a, b
             count += 1 if a < b else 0
     return count

@@ -28,6 +28,7 @@ from phantom.kernels.lanes import (
     SLOPE,
     TAU,
     G,
+    at,
     evaluate_lanes,
 )
 from phantom.kernels.scratch import Scratch
@@ -141,14 +142,18 @@ def polish_lanes(
         left = whole(0)
         for m in range(n):
             if S[RE + m] < enough or S[RB + m] - S[RA + m] < 1e-15 or step == _HALVINGS - 1:
-                pixels[filled] = int(S[RI + m]) * columns + int(S[RJ + m])
-                where[filled] = S[RW + m]
-                signs[filled] = 1.0 if S[RGA + m] > 0.0 else -1.0
+                pixels[at(0, filled)] = int(S[RI + m]) * columns + int(S[RJ + m])
+                where[at(0, filled)] = S[RW + m]
+                signs[at(0, filled)] = 1.0 if S[RGA + m] > 0.0 else -1.0
                 filled += 1
             else:
-                S[RI + left], S[RJ + left], S[RT + left] = S[RI + m], S[RJ + m], S[RT + m]
-                S[RA + left], S[RB + left], S[RW + left] = S[RA + m], S[RB + m], S[RW + m]
-                S[RGA + left], S[RS + left], S[RP + left] = S[RGA + m], S[RS + m], S[RP + m]
+                S[at(RI, left)], S[at(RJ, left)], S[at(RT, left)] = S[RI + m], S[RJ + m], S[RT + m]
+                S[at(RA, left)], S[at(RB, left)], S[at(RW, left)] = S[RA + m], S[RB + m], S[RW + m]
+                S[at(RGA, left)], S[at(RS, left)], S[at(RP, left)] = (
+                    S[RGA + m],
+                    S[RS + m],
+                    S[RP + m],
+                )
                 left += 1
         n = left
     return filled

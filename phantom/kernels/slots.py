@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from phantom.compiled.layout import Scene
 from phantom.kernels.compiling import inner, lane_loop, whole
-from phantom.kernels.lanes import LANES
+from phantom.kernels.lanes import LANES, at
 from phantom.kernels.leaves import quadric_leaf
 from phantom.kernels.scratch import Scratch
 
@@ -44,7 +44,7 @@ def pair_up(start: int, end: int, held: Scratch) -> int:
     pixels, where, signs = held.pixels, held.where, held.signs
     waiting, senses = held.waiting, held.senses
     for r in range(start, end):
-        p, w, sign = pixels[r], where[r], signs[r]
+        p, w, sign = np.uint64(pixels[r]), where[r], signs[r]
         if senses[0, p] == -sign and waiting[0, p] == w:
             senses[0, p] = 0.0
             continue
@@ -53,7 +53,11 @@ def pair_up(start: int, end: int, held: Scratch) -> int:
             continue
         if senses[1, p] != 0.0:
             # The older one goes: it has met the records of a whole segment.
-            pixels[start], where[start], signs[start] = p, waiting[1, p], senses[1, p]
+            pixels[at(0, start)], where[at(0, start)], signs[at(0, start)] = (
+                p,
+                waiting[1, p],
+                senses[1, p],
+            )
             start += 1
         waiting[1, p], senses[1, p] = waiting[0, p], senses[0, p]
         waiting[0, p], senses[0, p] = w, sign
@@ -70,7 +74,11 @@ def let_go(filled: int, held: Scratch) -> int:
     for side in range(2):
         for p in range(LANES):
             if senses[side, p] != 0.0:
-                pixels[filled], where[filled], signs[filled] = p, waiting[side, p], senses[side, p]
+                pixels[at(0, filled)], where[at(0, filled)], signs[at(0, filled)] = (
+                    p,
+                    waiting[side, p],
+                    senses[side, p],
+                )
                 senses[side, p] = 0.0
                 filled += 1
     return filled
@@ -103,7 +111,7 @@ def settle(
     for p in range(LANES):
         first[p], last[p], total[p], book[0, p] = 2.0, -1.0, 0.0, 0
     for r in range(count):
-        p, w = pixels[r], where[r]
+        p, w = np.uint64(pixels[r]), where[r]
         book[0, p] += 1
         if signs[r] > 0.0:
             first[p] = min(first[p], w)

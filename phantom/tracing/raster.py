@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 Each = Callable[[int, Floats], None]
 
-_BAND_PIXELS = 16384
+_BAND_PIXELS = 8192
 _ROOM = 256
 _SLOTS = 64
 
