@@ -57,8 +57,8 @@ def band_transmission(
     ``found`` is (rows, columns).
     """
     if attenuation_per_mm.ndim == 1:
-        _sum(lengths, attenuation_per_mm, found)
-        np.exp(np.negative(found, out=found), out=found)
+        _sum(lengths, -attenuation_per_mm, found)
+        np.exp(found, out=found)
         return
     left = np.empty(lengths.shape[1:])
     flat = np.moveaxis(lengths, 0, -1).reshape(-1, len(lengths))

@@ -56,6 +56,7 @@ class Scratch(NamedTuple):
     orders: Ints  # (PROGRAMS, 2 slots) the ends, in the order in which they are met
     factors: Floats  # (PROGRAMS, M, 2 slots) what each end counts for
     sums: Floats  # (TILE_COLUMNS,)
+    ways: Floats  # (TILE_COLUMNS,) from source to pixel, in mm
     present: NDArray[np.uint8]  # (nodes,)
     nodes: Ints
     kept: Ints
@@ -99,6 +100,7 @@ def scratch(scene: Scene, channels: int, slots: int) -> Scratch:
         orders=np.empty((PROGRAMS, number), dtype=ints),
         factors=np.empty((PROGRAMS, channels, number)),
         sums=np.zeros(TILE_COLUMNS),
+        ways=np.empty(TILE_COLUMNS),
         present=np.zeros(len(scene.parent), dtype=np.uint8),
         nodes=np.empty(len(scene.parent) + number, dtype=ints),
         kept=np.empty(len(scene.leaf_radius) + number, dtype=ints),

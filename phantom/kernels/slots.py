@@ -44,7 +44,7 @@ def pair_up(start: int, end: int, held: Scratch) -> int:
     pixels, where, signs = held.pixels, held.where, held.signs
     waiting, senses = held.waiting, held.senses
     for r in range(start, end):
-        p, w, sign = np.uint64(pixels[r]), where[r], signs[r]
+        p, w, sign = at(0, pixels[r]), where[r], signs[r]
         if senses[0, p] == -sign and waiting[0, p] == w:
             senses[0, p] = 0.0
             continue
@@ -111,7 +111,7 @@ def settle(
     for p in range(LANES):
         first[p], last[p], total[p], book[0, p] = 2.0, -1.0, 0.0, 0
     for r in range(count):
-        p, w = np.uint64(pixels[r]), where[r]
+        p, w = at(0, pixels[r]), where[r]
         book[0, p] += 1
         if signs[r] > 0.0:
             first[p] = min(first[p], w)

@@ -57,15 +57,23 @@ def add(ends: Floats, end: int, factor: float, start: int, width: int, sums: Flo
 
 
 @lane_loop
-def put(sums: Floats, rays: Floats, row: int, column: int, width: int, out: Floats) -> None:
-    """Turn parts of the way into mm and clear the sums."""
-    dx0 = rays[3, 0] + row * rays[4, 0] + column * rays[5, 0]
-    dy0 = rays[3, 1] + row * rays[4, 1] + column * rays[5, 1]
-    dz0 = rays[3, 2] + row * rays[4, 2] + column * rays[5, 2]
+def reach(rays: Floats, row: int, width: int, ways: Floats) -> None:
+    """Write how long the way from source to pixel is along a row, in mm."""
+    dx0 = rays[3, 0] + row * rays[4, 0]
+    dy0 = rays[3, 1] + row * rays[4, 1]
+    dz0 = rays[3, 2] + row * rays[4, 2]
     dxj, dyj, dzj = rays[5, 0], rays[5, 1], rays[5, 2]
     for j in range(width):
         dx, dy, dz = dx0 + j * dxj, dy0 + j * dyj, dz0 + j * dzj
-        out[j] = max(sums[j], 0.0) * math.sqrt(dx * dx + dy * dy + dz * dz)
+        ways[j] = math.sqrt(dx * dx + dy * dy + dz * dz)
+
+
+@lane_loop
+def put(sums: Floats, ways: Floats, first: int, width: int, out: Floats) -> None:
+    """Turn parts of the way into mm and clear the sums."""
+    there = ways[first : first + width]
+    for j in range(width):
+        out[j] = max(sums[j], 0.0) * there[j]
         sums[j] = 0.0
 
 
@@ -138,6 +146,7 @@ def combine(
         known[p] = 0
     newest = whole(0)
     for i in range(rows):
+        reach(held.rays, i, columns, held.ways)
         first = 0
         while first < columns:
             last = columns
@@ -223,6 +232,6 @@ def combine(
                             used = True
                     if used:
                         to = out[channel, to_row + i, to_column + j : to_column + j + alike]
-                        put(sums, held.rays, i, j, alike, to)
+                        put(sums, held.ways, j, alike, to)
                 j += alike
             first = last

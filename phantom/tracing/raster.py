@@ -139,7 +139,8 @@ def _fill(
             own.into = np.empty((channels, size, columns)) if out is None else out
         into, above = own.into, 0
         if out is None:
-            into[:], above = 0.0, start
+            into.view(np.uint8).fill(0)  # faster than to fill in 0.0
+            above = start
         failed = np.empty((-(-size // TILE_ROWS) * -(-columns // TILE_COLUMNS), 2), dtype=np.int64)
         count = tiles(
             scene, view, *seen, start, end, tolerances.CHORD_MM, own.held, into, above, failed

@@ -79,7 +79,7 @@ LOOPS = {
         (FLOATS, MATRIX, FLOAT, FLOAT, FLOAT, MATRIX, INT, INT, INT, INT, INT, INT),
         {"vsqrtpd": 1, "vdivpd": 1},
     ),
-    "lengths": (spans.put, (FLOATS, MATRIX, INT, INT, INT, FLOATS), {"vsqrtpd": 1}),
+    "lengths": (spans.reach, (MATRIX, INT, INT, FLOATS), {"vsqrtpd": 1}),
 }
 
 
