@@ -37,12 +37,14 @@ from phantom.kernels.lanes import (
     SLOPE,
     TAU,
     XV,
+    YA,
     YT,
     YV,
     YW,
     A,
     B,
     G,
+    H,
     I,
     J,
     at,
@@ -154,7 +156,7 @@ def glance(
                     T[HX + m],
                     T[HY + m],
                 )
-                T[at(YT, hits)], T[at(YW, hits)] = T[XV + m], T[YV + m]
+                T[at(YT, hits)], T[at(YW, hits)], T[at(YA, hits)] = T[XV + m], T[YV + m], T[H + m]
                 hits += 1
             elif code != MISS:
                 S[at(I, left)], S[at(J, left)] = T[I + m], T[J + m]

@@ -26,6 +26,7 @@ from phantom.kernels.lanes import (
     LOW,
     RA,
     RB,
+    RE,
     RGA,
     RI,
     RJ,
@@ -223,6 +224,7 @@ def isolate(
                         T[GB + m],
                         T[SB + m],
                     )
+                    S[at(RE, roots)] = T[TB + m]
                     roots += 1
                 elif code == SPLIT:
                     T[at(I, halves)], T[at(J, halves)] = T[I + m], T[J + m]

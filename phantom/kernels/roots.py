@@ -43,7 +43,11 @@ _HALVINGS = 200
 
 @lane_loop
 def first_guess(S: Floats, n: int) -> None:
-    """Guess each root from the cubic with the values and slopes of both ends."""
+    """Guess each root from the cubic with the values and slopes of both ends, and tau there.
+
+    ``RE`` is tau at the far end. A tau from too far away leaves G wrong by more than G is so near
+    to its root, and with the wrong sign it would be looked for on the wrong side.
+    """
     for m in range(n):
         a, b, ga, gb = S[RA + m], S[RB + m], S[RGA + m], S[RW + m]
         span = b - a
@@ -59,6 +63,7 @@ def first_guess(S: Floats, n: int) -> None:
             t -= g / ((3.0 * c3 * t + 2.0 * c2) * t + sa)
             t = min(max(t, 1e-3), 1.0 - 1e-3) if t == t else 0.5
         S[RW + m] = a + t * span
+        S[RT + m] += t * (S[RE + m] - S[RT + m])
         S[RC + m] = (c2 + 3.0 * c3 * t) / (span * span)
 
 

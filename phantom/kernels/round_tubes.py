@@ -46,10 +46,12 @@ from phantom.kernels.lanes import (
     SLOPE,
     TAU,
     XV,
+    YA,
     YT,
     YV,
     YW,
     G,
+    H,
     I,
     J,
 )
@@ -68,12 +70,14 @@ def look(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
     f = mixed(point, F[0], r, w)
     # F falls from one end of the segment to the other, nearly straight.
     even, odd = f[0] + f[2] + f[4] + f[6], f[1] + f[3] + f[5]
-    over = 1.0 / odd
-    t = min(max(-even * over, -1.0), 1.0)
-    for _ in range(2):
-        fv, ft = value_and_slope(f, t)
-        over *= 2.0 - ft * over
-        t = min(max(t - fv * over, -1.0), 1.0)
+    t = min(max(-even / odd, -1.0), 1.0)
+    fv, ft = value_and_slope(f, t)
+    over = 1.0 / ft
+    t = min(max(t - fv * over, -1.0), 1.0)
+    # The slope has hardly changed since: a product mends its inverse.
+    fv, ft = value_and_slope(f, t)
+    over *= 2.0 - ft * over
+    t = min(max(t - fv * over, -1.0), 1.0)
     fv, ft, ftt = two_slopes(f, t)
     fw, fwt = value_and_slope(r if point else F[0], t)
     xv, xt, xtt = two_slopes(mixed(point, X[0], xr, w), t)
@@ -89,7 +93,7 @@ def look(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
     xv, yv = xv - xt * rest, yv - yt * rest
     S[TAU + m], S[G + m] = t - rest, xv * xv + yv * yv - 1.0
     S[SLOPE + m] = 2.0 * (xv * x1 + yv * y1)
-    S[HT + m], S[HY + m] = turn, turning
+    S[HT + m], S[HY + m], S[H + m] = turn, turning, ftt
     S[HX + m] = 2.0 * (x1 * x1 + y1 * y1 + xv * x2 + yv * y2)
     S[XV + m] = 6.0 * (x1 * x2 + y1 * y2)
     S[YV + m] = 6.0 * (x2 * x2 + y2 * y2)
@@ -99,8 +103,9 @@ def look(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
 def probe(S: Floats, n: int, fans: Floats) -> None:
     """Look at G once on each of n intervals, at ``AT_W``.
 
-    ``TAU``, ``G`` and ``SLOPE`` are what was found, ``HT`` and ``HY`` the first two derivatives of
-    tau along the ray, and ``HX``, ``XV`` and ``YV`` the next three of G, the last one roughly.
+    ``TAU``, ``G`` and ``SLOPE`` are what was found, ``H`` is F's second derivative along tau.
+    ``HT`` and ``HY`` are the first two derivatives of tau along the ray, ``HX``, ``XV`` and ``YV``
+    the next three of G, the last one roughly.
     """
     F, X, Y = fan(fans, 0), fan(fans, 1), fan(fans, 2)
     if from_one_point(fans):
@@ -135,8 +140,9 @@ def both_ways(
     return before, behind
 
 
-Jet = tuple[float, float, float, float, float, float, float, float]
-"""Of a point: w, tau, G, 1 / G', dtau/dw, 1 / F_tau, and the slopes of x and y along tau."""
+Jet = tuple[float, float, float, float, float, float, float, float, float]
+"""Of a point: w, tau, G, 1 / G', dtau/dw, 1 / F_tau, the slopes of x and y along tau, and by how
+much tau was mended."""
 
 
 @lane
@@ -150,21 +156,24 @@ def first_look(
     point: bool,
     w: float,
     tau: float,
+    curl: float,
 ) -> Jet:
     """Mend tau at w, and take G and its slope there.
 
-    ``fr``, ``xr`` and ``yr`` are what the ray has of its own.
+    ``fr``, ``xr`` and ``yr`` are what the ray has of its own, ``curl`` is about F's second
+    derivative along tau.
     """
     t = min(max(tau, -1.0), 1.0)
     fv, ft, fw, fwt = jet(point, F[0], fr, w, t)
     over = 1.0 / ft
     off = fv * over
-    turn = (off * fwt - fw) * over
+    turn = -fw * over
+    turn += off * (fwt + turn * curl) * over
     t = min(max(t - off, -1.0), 1.0)
     xv, xt, xw, _ = jet(point, X[0], xr, w, t)
     yv, yt, yw, _ = jet(point, Y[0], yr, w, t)
     slope = 2.0 * (xv * xw + yv * yw) + 2.0 * (xv * xt + yv * yt) * turn
-    return w, t, xv * xv + yv * yv - 1.0, 1.0 / slope, turn, over, xt, yt
+    return w, t, xv * xv + yv * yv - 1.0, 1.0 / slope, turn, over, xt, yt, off
 
 
 @lane
@@ -189,7 +198,7 @@ def second_look(
     Returns it, or that end where G is still negative there, and whether it is good enough.
     ``bend`` is about G'' at the first look and ``turning`` about the second derivative of tau.
     """
-    w, t, g, flat, turn, over, xt, yt = seen
+    w, t, g, flat, turn, over, xt, yt, off = seen
     end = high if rising else low
     # The first step is Chebyshev's, of third order; where an interval ends long before its root
     # the bend would turn it around.
@@ -209,7 +218,7 @@ def second_look(
     upright = (1.0 - change) * (1.0 + change * change)
     step = -g * flat * upright
     wide = high - low
-    first = abs(moved) + wide * abs(turned)
+    first = abs(moved) + wide * (abs(turned) + abs(off))
     second = abs(step) + wide * abs(rest - turn * step)
     # The slope is wrong by about the square of the part it has changed by, or as the second step
     # has it; what was left against roots found to the end was a quarter of this at the most.
@@ -228,15 +237,16 @@ def chord(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool, enough: float)
     i, j, a, b = S[RI + m], S[RJ + m], S[RA + m], S[RB + m]
     w, t, turn, turning = S[RW + m], S[RT + m], S[RP + m], S[RE + m]
     g, slope, bend, third, fourth = S[RGA + m], S[RS + m], S[RC + m], S[YT + m], S[YW + m]
+    curl = S[YA + m]
     fr, xr, yr = own(F, i, j), own(X, i, j), own(Y, i, j)
     before, behind = both_ways(g, slope, bend, third, fourth)
     before, behind = max(before, a - w), min(behind, b - w)
     # Both ends side by side: the processor does the one while the other waits.
     v, u = min(max(w + before, a), w), min(max(w + behind, w), b)
     at = t + (turn + 0.5 * turning * before) * before
-    one = first_look(F, X, Y, fr, xr, yr, point, v, at)
+    one = first_look(F, X, Y, fr, xr, yr, point, v, at, curl)
     at = t + (turn + 0.5 * turning * behind) * behind
-    other = first_look(F, X, Y, fr, xr, yr, point, u, at)
+    other = first_look(F, X, Y, fr, xr, yr, point, u, at, curl)
     curved = bend + (third + 0.5 * fourth * before) * before
     entry, sure = second_look(F, X, Y, fr, xr, yr, point, one, a, w, False, curved, turning, enough)
     curved = bend + (third + 0.5 * fourth * behind) * behind

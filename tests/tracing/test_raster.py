@@ -73,9 +73,8 @@ def load(solid, names=("m",)):
     )
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_random_generalized_cylinders(seed):
-    rng = np.random.default_rng([30, seed])
+def round_or_drawn(rng):
+    """Return a random generalized cylinder of the families of 1993's kinds."""
     every = [
         (a, c, s, f)
         for a in families.AXES
@@ -85,23 +84,31 @@ def test_random_generalized_cylinders(seed):
         if families.allowed((a, c, s, f))
     ]
     kinds = every[rng.integers(len(every))]
-    scene = load({"material": "m", **families.generalized_cylinder(rng, kinds)})
-    agree(scene, turned(rng))
+    return load({"material": "m", **families.generalized_cylinder(rng, kinds)})
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_random_contours_sweeps_and_frames_of_every_kind(seed):
-    rng = np.random.default_rng([31, seed])
+def of_any_kind(rng):
+    """Return a random generalized cylinder of every family there is."""
     while True:
         kinds = families_new.any_kinds(rng)
         if not families_new.allowed(kinds):
             continue
         try:
-            scene = load({"material": "m", **families_new.generalized_cylinder(rng, kinds)})
+            return load({"material": "m", **families_new.generalized_cylinder(rng, kinds)})
         except phantom.InvalidDocumentError:
             continue
-        break
-    agree(scene, turned(rng), size=(24, 140))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_generalized_cylinders(seed):
+    rng = np.random.default_rng([30, seed])
+    agree(round_or_drawn(rng), turned(rng))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_contours_sweeps_and_frames_of_every_kind(seed):
+    rng = np.random.default_rng([31, seed])
+    agree(of_any_kind(rng), turned(rng), size=(24, 140))
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -110,6 +117,16 @@ def test_random_trees(seed, parallel):
     rng = np.random.default_rng([32, seed])
     scene = phantom.load(documents.document(documents.tree(rng, 3)))
     agree(scene, turned(rng), parallel=parallel, field=60.0)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("seed", range(100, 500))
+def test_hundreds_of_random_pictures(seed):
+    """From any side, from near and far, from one point and parallel."""
+    rng = np.random.default_rng([34, seed])
+    drawn = (round_or_drawn, of_any_kind)[seed % 2](rng)
+    distance = float(10.0 ** rng.uniform(1.5, 4.0))
+    agree(drawn, turned(rng), distance=distance, parallel=seed % 3 == 0, size=(24, 140))
 
 
 VIEWS = {
