@@ -37,14 +37,12 @@ from phantom.kernels.lanes import (
     SLOPE,
     TAU,
     XV,
-    YA,
     YT,
     YV,
     YW,
     A,
     B,
     G,
-    H,
     I,
     J,
     at,
@@ -156,7 +154,7 @@ def glance(
                     T[HX + m],
                     T[HY + m],
                 )
-                T[at(YT, hits)], T[at(YW, hits)], T[at(YA, hits)] = T[XV + m], T[YV + m], T[H + m]
+                T[at(YT, hits)], T[at(YW, hits)] = T[XV + m], T[YV + m]
                 hits += 1
             elif code != MISS:
                 S[at(I, left)], S[at(J, left)] = T[I + m], T[J + m]

@@ -46,12 +46,10 @@ from phantom.kernels.lanes import (
     SLOPE,
     TAU,
     XV,
-    YA,
     YT,
     YV,
     YW,
     G,
-    H,
     I,
     J,
 )
@@ -93,7 +91,7 @@ def look(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
     xv, yv = xv - xt * rest, yv - yt * rest
     S[TAU + m], S[G + m] = t - rest, xv * xv + yv * yv - 1.0
     S[SLOPE + m] = 2.0 * (xv * x1 + yv * y1)
-    S[HT + m], S[HY + m], S[H + m] = turn, turning, ftt
+    S[HT + m], S[HY + m] = turn, turning
     S[HX + m] = 2.0 * (x1 * x1 + y1 * y1 + xv * x2 + yv * y2)
     S[XV + m] = 6.0 * (x1 * x2 + y1 * y2)
     S[YV + m] = 6.0 * (x2 * x2 + y2 * y2)
@@ -103,7 +101,7 @@ def look(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool) -> None:
 def probe(S: Floats, n: int, fans: Floats) -> None:
     """Look at G once on each of n intervals, at ``AT_W``.
 
-    ``TAU``, ``G`` and ``SLOPE`` are what was found, ``H`` is F's second derivative along tau.
+    ``TAU``, ``G`` and ``SLOPE`` are what was found.
     ``HT`` and ``HY`` are the first two derivatives of tau along the ray, ``HX``, ``XV`` and ``YV``
     the next three of G, the last one roughly.
     """
@@ -156,19 +154,16 @@ def first_look(
     point: bool,
     w: float,
     tau: float,
-    curl: float,
 ) -> Jet:
     """Mend tau at w, and take G and its slope there.
 
-    ``fr``, ``xr`` and ``yr`` are what the ray has of its own, ``curl`` is about F's second
-    derivative along tau.
+    ``fr``, ``xr`` and ``yr`` are what the ray has of its own.
     """
     t = min(max(tau, -1.0), 1.0)
     fv, ft, fw, fwt = jet(point, F[0], fr, w, t)
     over = 1.0 / ft
     off = fv * over
-    turn = -fw * over
-    turn += off * (fwt + turn * curl) * over
+    turn = (off * fwt - fw) * over
     t = min(max(t - off, -1.0), 1.0)
     xv, xt, xw, _ = jet(point, X[0], xr, w, t)
     yv, yt, yw, _ = jet(point, Y[0], yr, w, t)
@@ -237,16 +232,15 @@ def chord(S: Floats, m: int, F: Fan, X: Fan, Y: Fan, point: bool, enough: float)
     i, j, a, b = S[RI + m], S[RJ + m], S[RA + m], S[RB + m]
     w, t, turn, turning = S[RW + m], S[RT + m], S[RP + m], S[RE + m]
     g, slope, bend, third, fourth = S[RGA + m], S[RS + m], S[RC + m], S[YT + m], S[YW + m]
-    curl = S[YA + m]
     fr, xr, yr = own(F, i, j), own(X, i, j), own(Y, i, j)
     before, behind = both_ways(g, slope, bend, third, fourth)
     before, behind = max(before, a - w), min(behind, b - w)
     # Both ends side by side: the processor does the one while the other waits.
     v, u = min(max(w + before, a), w), min(max(w + behind, w), b)
     at = t + (turn + 0.5 * turning * before) * before
-    one = first_look(F, X, Y, fr, xr, yr, point, v, at, curl)
+    one = first_look(F, X, Y, fr, xr, yr, point, v, at)
     at = t + (turn + 0.5 * turning * behind) * behind
-    other = first_look(F, X, Y, fr, xr, yr, point, u, at, curl)
+    other = first_look(F, X, Y, fr, xr, yr, point, u, at)
     curved = bend + (third + 0.5 * fourth * before) * before
     entry, sure = second_look(F, X, Y, fr, xr, yr, point, one, a, w, False, curved, turning, enough)
     curved = bend + (third + 0.5 * fourth * behind) * behind
