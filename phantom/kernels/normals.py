@@ -74,13 +74,6 @@ def swept_gradient(
 
 
 @kernel
-def scaled_to_one(x: float, y: float, z: float, out: Floats) -> None:
-    """Write the unit vector along (x, y, z)."""
-    length = math.sqrt(x * x + y * y + z * z)
-    out[0], out[1], out[2] = x / length, y / length, z / length
-
-
-@kernel
 def swept_normal(
     scene: Scene,
     leaf: int,
